@@ -1,0 +1,54 @@
+# make demo    build everything into .venv and run the main example
+# make test    every test, Rust and Python
+# make lint    formatting, lints, types and documentation, warnings denied
+# make bench   criterion benchmarks
+# make clean   remove what was built
+#
+# The environment is rebuilt only when Cargo.toml, Cargo.lock, pyproject.toml or a Rust source changes.
+
+PYTHON ?= python3
+BIN := .venv/bin
+RUST_SOURCES := $(shell find src -name '*.rs')
+
+# pyo3 builds against the environment's interpreter in every step, so that build artefacts are shared.
+export PYO3_PYTHON := $(CURDIR)/$(BIN)/python
+export VIRTUAL_ENV := $(CURDIR)/.venv
+
+.PHONY: venv develop demo test lint bench clean
+
+venv: .venv/.tools
+develop: .venv/.develop
+
+.venv/.tools:
+	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet 'maturin>=1.9,<2'
+	touch $@
+
+# Installs the package with its test and lint tools; the Python sources are linked, not copied.
+.venv/.develop: .venv/.tools pyproject.toml Cargo.toml Cargo.lock $(RUST_SOURCES)
+	$(BIN)/maturin develop --release --extras test,lint
+	touch $@
+
+demo: develop
+	$(BIN)/ribbonrs run examples/helical_leaf.toml
+
+test: develop
+	cargo test --release
+	$(BIN)/python -m pytest
+
+lint: develop
+	cargo fmt --check
+	cargo clippy --all-targets -- -D warnings
+	cargo clippy --all-targets --features python -- -D warnings
+	RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --features python
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+	$(BIN)/python -m mypy.stubtest ribbonrs._core
+
+bench:
+	cargo bench
+
+clean:
+	cargo clean
+	rm -rf .venv .mypy_cache .pytest_cache .ruff_cache .hypothesis python/ribbonrs/_core*.so

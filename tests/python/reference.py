@@ -1,8 +1,8 @@
 """Section-law references in mpmath, with at least 50 correct digits, written independently of the Rust code.
 
-Printed closed forms: `twist` is Liu, Li & Liu, eqs. (57)-(58), with a chirality; `saddle` is their eq. (49) with
-(50) repaired ("published") or with the thickness gradient kept in the edge condition ("consistent"). They cancel
-badly for small K2, so they are evaluated with as many digits as that costs.
+Printed closed forms: `twist` is Liu, Li & Liu, eqs. (57)-(58), with a chirality; `saddle` is their eq. (49)
+with (50) repaired ("published") or with the thickness gradient kept in the edge condition ("consistent").
+They cancel badly for small K2, so they are evaluated with as many digits as that costs.
 
 General law: `General` solves the cross-section exactly. With lambda = K2^2/D the deflection obeys
 
@@ -45,12 +45,12 @@ def exact(value: Any) -> Any:
 
 
 def jet(f: Callable[[Any], Any], x: Any, step: Any) -> tuple[Any, Any, Any]:
-    """f, f', f'' by central differences: of n digits, a step of n/4 leaves n/2 in f'' and as many from truncation."""
+    """f, f', f'' by central differences; of n digits a step of 10^(-n/4) leaves n/2 in f''."""
     low, mid, high = f(x - step), f(x), f(x + step)
     return mid, (high - low) / (2 * step), (high - 2 * mid + low) / step**2
 
 
-# ---------------------------------------------------------------------------------------------- printed closed forms
+# ------------------------------------------------------------------------------------- printed closed forms
 
 
 def _ratio(eta: Any, K2: Any) -> Any:
@@ -76,7 +76,7 @@ def _digits(eta: float, K2: float) -> int:
 
 
 def twist(eta: float, xi: float, strain: Sequence[float], chiral: float = 0.0) -> Value:
-    """Liu, Li & Liu, eqs. (57)-(58), and (K3 - d/2)^2 for K3^2 in the torsion; (59) at K2 = 0, exact there."""
+    """Liu, Li & Liu, eqs. (57)-(58), (K3 - d/2)^2 for K3^2 in torsion; (59) at K2 = 0, exact there."""
     with mp.workdps(_digits(eta, strain[2])):
         h, g, d = exact(eta), exact(xi), exact(chiral)
         e, K1, K2, K3 = map(exact, strain)
@@ -148,8 +148,8 @@ def _hessian(He3: Any, H22: Any, H23: Any, H33: Any) -> list[list[Any]]:
 def saddle(eta: float, xi: float, K2: float, form: str) -> tuple[Any, Any, Any]:
     """Soft part of eq. (49), (eta^2/18)(K2 + xi)^2 + V(K2), with its first two K2-derivatives.
 
-    V = eta^(5/2)/(18 sqrt 6) |K2|^(-1/2) F (cos z - cosh z)/(sin z + sinh z), F = K2 (K2 + 2 xi) in the published
-    form (the printed square root takes only |K2|), F = (K2 + xi)^2 in the consistent one.
+    V = eta^(5/2)/(18 sqrt 6) |K2|^(-1/2) F (cos z - cosh z)/(sin z + sinh z), F = K2 (K2 + 2 xi) in the
+    published form (the printed square root takes only |K2|), F = (K2 + xi)^2 in the consistent one.
     """
     with mp.workdps(_digits(eta, K2)):
         h, g, k = exact(eta), exact(xi), exact(K2)
@@ -166,7 +166,7 @@ def saddle(eta: float, xi: float, K2: float, form: str) -> tuple[Any, Any, Any]:
         )
 
 
-# ----------------------------------------------------------------------------------------------------- polynomials
+# ---------------------------------------------------------------------------------------------- polynomials
 
 
 def add(*polys: Poly) -> Poly:
@@ -225,18 +225,18 @@ def parity(p: Poly, odd: int) -> Poly:
     return [c if i % 2 == odd else mpf(0) for i, c in enumerate(p)]
 
 
-# ------------------------------------------------------------------------------------------------- the general law
+# ------------------------------------------------------------------------------------------ the general law
 
 
 class Load(NamedTuple):
-    """A membrane strain P(x), orthogonal to 1 and x, and a transverse curvature f(x) that U must live with."""
+    """A membrane strain P(x), orthogonal to 1 and x, and a transverse curvature f(x)."""
 
     P: Poly
     f: Poly
 
 
 class Deflection:
-    """U for one load at one K2: a polynomial plus, for each parity, Re(c E), E = exp(r(x-1/2)) +- exp(-r(x+1/2))."""
+    """U for one load at one K2: a polynomial and, by parity, Re(c (exp(r(x-1/2)) +- exp(-r(x+1/2))))."""
 
     def __init__(self, load: Load, K2: Any, D: Any) -> None:
         self.load, self.K2, self.D = load, K2, D
@@ -302,7 +302,7 @@ FIELDS = ("gamma33", "d33", "d22", "d23", "g21", "g31", "gamma22", "gamma23")
 
 
 class General:
-    """The exact relaxed law for polynomial growth fields {name: coefficients} and stiffness (Q33, Q22, Q23, G)."""
+    """The exact relaxed law for polynomial fields {name: coefficients} and stiffness (Q33, Q22, Q23, G)."""
 
     def __init__(
         self, eta: float, fields: Mapping[str, Sequence[float]], stiffness: Sequence[Any] = ISOTROPIC
@@ -332,7 +332,7 @@ class General:
         return [twist_load, Load(zero, [nu]), Load(soft(scaled(-1, self._field("gamma33"))), f)]
 
     def digits(self, K2: float) -> int:
-        """Digits that leave 60 after the polynomial part, of size lambda^-3, has cancelled against the waves."""
+        """Digits that leave 60 once the polynomial, of size lambda^-3, has cancelled against the waves."""
         small = mp.log10(abs(exact(K2)) / exact(self.eta)) if K2 else mpf(-30)
         return 160 + int(-16 * min(small, 0))
 

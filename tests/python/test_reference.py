@@ -1,8 +1,7 @@
-"""The mpmath references against each other and against two other methods, before anything is tested with them."""
+"""The mpmath references against each other and against two other methods."""
 
 from __future__ import annotations
 
-import random
 from typing import Any
 
 import pytest
@@ -122,7 +121,7 @@ def integration_matrix(n: int) -> Any:
 
 @pytest.mark.parametrize("k2", [0.0, 0.02, -1.3, 9.0])
 def test_relaxed_energy_is_a_sum_of_squares(k2: float) -> None:
-    """Pi = 1/2 sum w_j^2/(1 + K2^2 sigma_j^2/D), w = K3^2 t - gamma + K2 (nu K2 t + s), sigma_j of the matrix F."""
+    """Pi = 1/2 sum w_j^2/(1 + K2^2 sigma_j^2/D), w = K3^2 t - gamma + K2 (nu K2 t + s), sigma_j of F."""
     eta, K3, n = 0.25, 0.6, 24
     K2 = k2 * eta
     general = ref.General(eta, FIELDS, STIFFNESS)

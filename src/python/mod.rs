@@ -1,0 +1,39 @@
+//! The extension module `ribbonrs._core`: arrays in, arrays out, no policy.
+//!
+//! Checks of what a user writes, names and units are the Python package's; here only what could make
+//! the core panic or mislead is refused, as `ValueError`.
+
+mod frame;
+mod section;
+
+use numpy::PyReadonlyArray2;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::InvalidInput;
+use crate::section::Strain;
+
+impl From<InvalidInput> for PyErr {
+    fn from(error: InvalidInput) -> Self {
+        PyValueError::new_err(error.to_string())
+    }
+}
+
+/// Rows of an `(m, 4)` array as strains.
+fn strains_from(array: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Strain>> {
+    let array = array.as_array();
+    if array.ncols() != 4 {
+        let message = format!("strains have {} columns: expected 4", array.ncols());
+        return Err(PyValueError::new_err(message));
+    }
+    Ok(array.rows().into_iter().map(|r| Strain::new(r[0], r[1], r[2], r[3])).collect())
+}
+
+/// Numerical core of ribbonrs.
+#[pymodule]
+mod _core {
+    #[pymodule_export]
+    use super::frame::{gauss_points, helix, integrate_gauss, integrate_nodal, integrate_segments};
+    #[pymodule_export]
+    use super::section::SectionLaw;
+}

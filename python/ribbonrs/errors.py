@@ -8,7 +8,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["MISSING", "ConvergenceError", "InputError", "RibbonError", "RibbonWarning"]
+__all__ = ["MISSING", "ConvergenceError", "InputError", "RibbonError", "RibbonWarning", "shown"]
 
 
 class RibbonError(Exception):
@@ -54,7 +54,7 @@ class InputError(RibbonError, ValueError):
     def __str__(self) -> str:
         if self.value is MISSING:
             return f"{self.field} is missing: expected {self.expected}"
-        return f"{self.field} = {_shown(self.value)}: expected {self.expected}"
+        return f"{self.field} = {shown(self.value)}: expected {self.expected}"
 
 
 class ConvergenceError(RibbonError, RuntimeError):
@@ -89,8 +89,8 @@ _SHORT = reprlib.Repr()
 _SHORT.maxstring = _SHORT.maxother = 80
 
 
-def _shown(value: object) -> str:
-    """A value on one line, short whatever its size and depth."""
+def shown(value: object) -> str:
+    """Return the value in one line, short whatever its size and depth."""
     if isinstance(value, np.generic):
         value = value.item()
     try:

@@ -1,0 +1,99 @@
+"""The command line: ``ribbonrs run SCENE.toml``.
+
+Exit status 0, or 2 for wrong input, 1 where no solution was found; the reason is one line on stderr.
+"""
+
+from __future__ import annotations
+
+import argparse
+import io
+import os
+import sys
+import warnings
+from collections.abc import Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from rich.console import Console
+
+from .equilibrium import equilibria, solve
+from .errors import InputError, RibbonError, RibbonWarning
+from .scenefile import Output, read
+from .state import State
+from .summary import summary
+
+__all__ = ["main"]
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line and return its exit status."""
+    scene = _parser().parse_args(arguments).scene
+    try:
+        _run(scene)
+        sys.stdout.flush()
+    except InputError as error:
+        return _fail(str(error), 2)
+    except RibbonError as error:
+        return _fail(str(error), 1)
+    except KeyboardInterrupt:
+        return _fail("interrupted", 130)
+    except BrokenPipeError:
+        # The reader has gone; keep the interpreter from flushing to it at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="ribbonrs", description="Equilibrium shapes of thin growing ribbons.", allow_abbrev=False
+    )
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    run = commands.add_parser("run", help="find the shapes of a scene, show and save them")
+    run.add_argument("scene", type=Path, metavar="SCENE.toml", help="the scene file")
+    return parser
+
+
+def _run(path: Path) -> None:
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", RibbonWarning)
+        job = read(path)
+        state = solve(job.scene)
+        others = [other for other in equilibria(job.scene) if not (other.strain == state.strain).all()]
+        _write(state, job.outputs)
+    for message in dict.fromkeys(str(warning.message) for warning in caught):
+        print(f"ribbonrs: warning: {message}", file=sys.stderr)
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="backslashreplace")
+    console = Console(markup=False, highlight=False, emoji=False)
+    console.print(summary(job.scene, state, others))
+    if job.has_trace:
+        console.print("[trace] is for a later version and was left out.")
+    for output in job.outputs:
+        console.print(f"wrote {output.path}", soft_wrap=True)
+
+
+def _write(state: State, outputs: Sequence[Output]) -> None:
+    """Write all files or none: each beside its place first, then all are moved there."""
+    with ExitStack() as stack:
+        moves = []
+        for output in outputs:
+            try:
+                beside = TemporaryDirectory(prefix=".ribbonrs-", dir=output.path.parent)
+                written = Path(stack.enter_context(beside), output.path.name)
+                if output.field.startswith("output.figure"):
+                    state.plot(written)
+                else:
+                    state.save(written)
+            except OSError as error:
+                expected = f"a file that can be written, not: {error.strerror}"
+                raise InputError(output.field, str(output.path), expected) from None
+            moves.append((written, output.path))
+        for written, place in moves:
+            os.replace(written, place)
+
+
+def _fail(reason: str, status: int) -> int:
+    print(f"ribbonrs: {reason}", file=sys.stderr)
+    return status

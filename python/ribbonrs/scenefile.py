@@ -1,0 +1,324 @@
+"""Scene files: the same problem as the Python objects, written in TOML.
+
+pydantic checks the structure: which tables and keys there are. Values are checked by the classes they are
+for, so that a scene file and a Python program obey the same rules.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import BaseModel, BeforeValidator, Discriminator, ValidationError, model_validator
+from pydantic_core import ErrorDetails, PydanticCustomError
+
+from . import growth as growths
+from .check import numbers
+from .ends import Clamped, Free
+from .errors import MISSING, InputError, shown
+from .growth import Growth
+from .material import Isotropic, MooneyRivlin, Orthotropic
+from .ribbon import Ribbon
+from .scene import Scene
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+__all__ = ["SUFFIXES", "Job", "Output", "read"]
+
+SUFFIXES = {"figure": (".png", ".pdf", ".svg"), "surface": (".vtp", ".obj"), "data": (".npz",)}
+"""The kinds of output and what their files are called."""
+
+
+@dataclass(frozen=True)
+class Output:
+    """A file to write; `field` is the key of the scene file that asks for it."""
+
+    field: str
+    path: Path
+
+
+@dataclass(frozen=True)
+class Job:
+    """What a scene file asks for."""
+
+    scene: Scene
+    outputs: tuple[Output, ...]
+    has_trace: bool
+
+
+def read(path: str | os.PathLike[str]) -> Job:
+    """Read and check a scene file; files to write are relative to the current directory.
+
+    Raises
+    ------
+    InputError
+        One line about the first thing that is wrong; the file itself is the field "scene file".
+    """
+    tables = _parse(path)
+    try:
+        return _SceneTable.model_validate(tables).make()
+    except ValidationError as error:
+        details = error.errors(include_url=False)
+        # A misspelt key is also a missing one: name the misspelling.
+        details.sort(key=lambda detail: detail["type"] != "unknown_key")
+        raise _input_error(details[0]) from None
+
+
+def _parse(path: str | os.PathLike[str]) -> dict[str, Any]:
+    field, name = "scene file", os.fspath(path)
+    try:
+        text = Path(path).read_bytes().decode("utf-8-sig")
+        return tomllib.loads(text)
+    except OSError as error:
+        raise InputError(field, name, f"a readable file, not: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise InputError(field, name, f"UTF-8 text, unlike byte {error.start}") from None
+    except RecursionError:
+        raise InputError(field, name, "TOML with fewer nested brackets") from None
+    except ValueError as error:  # of which TOMLDecodeError is one
+        raise InputError(field, name, f"TOML, not: {error}") from None
+
+
+class _Table(BaseModel):
+    """A table of known keys. A value of type Any is checked by the class it is for."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _known_keys(cls, data: object) -> object:
+        for key, value in data.items() if isinstance(data, dict) else ():
+            if key not in cls.model_fields:
+                context = {"key": key, "value": value, "known": list(cls.model_fields)}
+                raise PydanticCustomError("unknown_key", "unknown key", context)
+        return data
+
+    def given(self) -> dict[str, Any]:
+        """The keys in the file, apart from `kind`, and their values."""
+        given = self.model_fields_set - {"kind"}
+        return {key: getattr(self, key) for key in type(self).model_fields if key in given}
+
+
+class _RibbonTable(_Table):
+    length: Any
+    width: Any
+    thickness: Any
+
+
+class _ThicknessTable(_Table):
+    xi: Any
+    transverse: Any = None
+
+
+class _ProfileTable(_Table):
+    name: Any = None
+    amplitude: Any = None
+    gamma33: Any = None
+    d33: Any = None
+    d22: Any = None
+    d23: Any = None
+    g21: Any = None
+    g31: Any = None
+    gamma22: Any = None
+    gamma23: Any = None
+
+
+def _as_table(value: object) -> object:
+    return value if isinstance(value, dict) else {"xi": value}
+
+
+def _as_list(value: object) -> object:
+    return value if isinstance(value, list) else [value]
+
+
+class _GrowthTable(_Table):
+    edge: Any = None
+    thickness: Annotated[_ThicknessTable, BeforeValidator(_as_table)] | None = None
+    chiral: Any = None
+    profile: Annotated[list[_ProfileTable], BeforeValidator(_as_list)] = []
+
+    def make(self) -> Growth:
+        terms = []
+        if self.edge is not None:
+            terms.append(growths.edge(self.edge))
+        if self.thickness is not None:
+            terms.append(growths.thickness(**self.thickness.given()))
+        if self.chiral is not None:
+            terms.append(growths.chiral(self.chiral))
+        terms.extend(growths.Profile(**profile.given()) for profile in self.profile)
+        if not terms:
+            raise InputError("growth", {}, f"at least one of {', '.join(type(self).model_fields)}")
+        return sum(terms[1:], start=terms[0])
+
+
+class _Kind(_Table):
+    """A table whose `kind` says which class the other keys are for."""
+
+    makes: ClassVar[Callable[..., Any]]
+
+    def make(self) -> Any:
+        return type(self).makes(**self.given())
+
+
+class _Isotropic(_Kind):
+    makes = Isotropic
+    kind: Literal["isotropic"]
+    Y: Any = None
+    nu: Any = None
+
+
+class _MooneyRivlin(_Kind):
+    makes = MooneyRivlin
+    kind: Literal["mooney-rivlin"]
+    c1: Any
+    c2: Any
+
+
+class _Orthotropic(_Kind):
+    makes = Orthotropic
+    kind: Literal["orthotropic"]
+    Q33: Any
+    Q22: Any
+    Q23: Any
+    G: Any
+
+
+class _Clamped(_Kind):
+    makes = Clamped
+    kind: Literal["clamped"]
+    position: Any = None
+    rotation: Any = None
+    twist_turns: Any = None
+
+
+class _Free(_Kind):
+    makes = Free
+    kind: Literal["free"]
+    force: Any = None
+    moment: Any = None
+
+
+_MaterialTable = Annotated[_Isotropic | _MooneyRivlin | _Orthotropic, Discriminator("kind")]
+_EndTable = Annotated[_Clamped | _Free, Discriminator("kind")]
+_KINDS = {
+    "material": ("isotropic", "mooney-rivlin", "orthotropic"),
+    "start": ("clamped", "free"),
+    "end": ("clamped", "free"),
+}
+
+
+class _TraceTable(_Table):
+    parameter: Any
+    span: Any
+
+    def check(self) -> None:
+        if not isinstance(self.parameter, str):
+            raise InputError("trace.parameter", self.parameter, "a name, such as 'growth.edge.amplitude'")
+        span = numbers("trace.span", self.span, "two finite numbers")
+        if len(span) != 2:
+            raise InputError("trace.span", self.span, "two finite numbers")
+
+
+class _OutputTable(_Table):
+    figure: Any = None
+    surface: Any = None
+    data: Any = None
+
+    def make(self) -> tuple[Output, ...]:
+        outputs: dict[str, Output] = {}
+        for key, value in self.given().items():
+            for i, name in enumerate(value) if isinstance(value, list) else ((None, value),):
+                field = f"output.{key}" if i is None else f"output.{key}[{i}]"
+                output = _output(field, name, SUFFIXES[key])
+                if outputs.setdefault(os.path.abspath(output.path), output) is not output:
+                    raise InputError(field, name, "a different file for each output")
+        return tuple(outputs.values())
+
+
+def _output(field: str, name: object, suffixes: tuple[str, ...]) -> Output:
+    if not isinstance(name, str) or not name.isprintable():
+        raise InputError(field, name, "a file name")
+    path = Path(name)
+    if path.suffix.lower() not in suffixes:
+        raise InputError(field, name, f"a file name ending in {' or '.join(suffixes)}")
+    # os.path, since Path.is_dir fails on a name that is too long.
+    if not os.path.isdir(path.parent):
+        raise InputError(field, name, "a file in a directory that exists")
+    if os.path.isdir(path):
+        raise InputError(field, name, "a file, not a directory")
+    return Output(field, path)
+
+
+class _SceneTable(_Table):
+    ribbon: _RibbonTable
+    material: _MaterialTable | None = None
+    growth: _GrowthTable
+    start: _EndTable | None = None
+    end: _EndTable | None = None
+    law: Any = None
+    trace: _TraceTable | None = None
+    output: _OutputTable = _OutputTable()
+
+    def make(self) -> Job:
+        given = self.given()
+        ribbon = self.ribbon.given()
+        if self.material is not None:
+            ribbon["material"] = self.material.make()
+        arguments: dict[str, Any] = {"ribbon": Ribbon(**ribbon), "growth": self.growth.make()}
+        for end in ("start", "end"):
+            if end in given:
+                arguments[end] = _end(end, given[end])
+        if "law" in given:
+            arguments["law"] = self.law
+        if self.trace is not None:
+            self.trace.check()
+        outputs = self.output.make()
+        return Job(Scene(**arguments), outputs, has_trace=self.trace is not None)
+
+
+def _end(field: str, table: _Kind) -> Any:
+    """Make an end; a class of ends does not know which of the two it is for, so name the field here."""
+    try:
+        return table.make()
+    except InputError as error:
+        key = error.field.partition(".")[2]
+        raise InputError(f"{field}.{key}", error.value, error.expected) from None
+
+
+def _input_error(detail: ErrorDetails) -> InputError:
+    """Say in one line what pydantic found wrong with the structure."""
+    kind, value = detail["type"], detail["input"]
+    table, *rest = detail["loc"] or ("",)
+    if table in _KINDS:
+        rest = rest[1:]  # pydantic adds the kind chosen
+    loc = (table, *rest) if table else ()
+    if kind == "unknown_key":
+        key, known = detail["ctx"]["key"], detail["ctx"]["known"]
+        nearest = get_close_matches(key, known, n=1, cutoff=0.0)[0]
+        expected = f"one of {', '.join(known)}; the nearest is {nearest}"
+        return InputError(_path(*loc, key), detail["ctx"]["value"], expected)
+    if kind in ("union_tag_invalid", "union_tag_not_found"):
+        expected = f"one of {', '.join(_KINDS[str(table)])}"
+        return InputError(_path(table, "kind"), value.get("kind", MISSING), expected)
+    if kind == "missing":
+        return InputError(_path(*loc), MISSING, "a value" if rest else "a table")
+    return InputError(_path(*loc), value, "a table")
+
+
+def _path(*steps: str | int) -> str:
+    """The place in the file, as ribbon.length or growth.profile[1].name."""
+    path = ""
+    for step in steps:
+        if isinstance(step, int):
+            path += f"[{step}]"
+        else:
+            key = step if re.fullmatch("[A-Za-z0-9_-]+", step) else shown(step)
+            path += f".{key}" if path else key
+    return path

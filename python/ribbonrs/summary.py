@@ -1,0 +1,109 @@
+"""What `ribbonrs run` prints about a scene and its equilibria."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import fields
+
+from rich.box import SIMPLE_HEAD
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from .helix import Helix
+from .scene import Scene
+from .state import State
+
+__all__ = ["summary"]
+
+
+def summary(scene: Scene, state: State, others: list[State]) -> Group:
+    """Return the summary of `state` and of the `others` that the scene allows, to be printed by rich."""
+    return Group(_scene_table(scene, state), _state_table(state), *_others_table(others))
+
+
+def _scene_table(scene: Scene, state: State) -> Table:
+    ribbon = scene.ribbon
+    material = ribbon.material
+    constants = ", ".join(f"{f.name} = {getattr(material, f.name):g}" for f in fields(material))
+    grown = " + ".join(f"{term.name} {term.amplitude:g}" for term in scene.growth.terms)
+    size = scene.growth.size(ribbon.thickness_ratio)
+    table = Table.grid(padding=(0, 3))
+    table.add_column(style="dim")
+    table.add_column()
+    table.add_row(
+        "ribbon",
+        f"{ribbon.length:g} long, {ribbon.width:g} wide, {ribbon.thickness:g} thick; "
+        f"thickness/width {ribbon.thickness_ratio:g}, length/width {ribbon.length_ratio:g}",
+    )
+    table.add_row("material", f"{type(material).__name__}, {constants}")
+    table.add_row("growth", f"{grown}; largest growth strain {size:.3g}")
+    if scene.law != "full":
+        table.add_row("law", scene.law)
+    table.add_row("shape", Text(_described(state), style="bold"))
+    table.add_row("stability", _stability(state))
+    return table
+
+
+def _described(state: State) -> str:
+    handed = state.helix.handedness
+    return state.phase if handed == "none" else f"{state.phase}, {handed}-handed"
+
+
+def _stability(state: State) -> str:
+    if state.stable:
+        return "stable: section_index 0, the section's stiffness is positive definite"
+    return f"unstable: section_index {state.section_index}, negative eigenvalues of the section's stiffness"
+
+
+def _state_table(state: State) -> Table:
+    table = Table(box=SIMPLE_HEAD)
+    for heading in ("", "symbol"):
+        table.add_column(heading)
+    for heading in ("dimensionless", "in your units"):
+        table.add_column(heading, justify="right")
+    for row in _state_rows(state):
+        table.add_row(*row)
+    return table
+
+
+def _state_rows(state: State) -> Iterator[tuple[str, str, str, str]]:
+    names = ("axial strain", "curvature in the plane", "curvature out of the plane", "twist")
+    physical = state.physical
+    for name, symbol, value, unit in zip(
+        names, ("eps", "K1", "K2", "K3"), state.strain, physical.strains[0], strict=True
+    ):
+        yield name, symbol, _figures(value), _figures(unit)
+    for name, symbol, field in (
+        ("radius of the helix", "R", "radius"),
+        ("pitch of the helix", "p", "pitch"),
+    ):
+        yield name, symbol, _length(state.helix, field), _length(physical.helix, field)
+    yield "turns", "", f"{state.helix.turns:.4g}", ""
+    yield "energy per length", "Pi", _figures(state.energy), _figures(physical.energy)
+
+
+def _length(helix: Helix, field: str) -> str:
+    value = getattr(helix, field)
+    return _figures(value) if math.isfinite(value) else "none (straight)"
+
+
+def _figures(value: float) -> str:
+    return f"{value + 0.0:.6g}"  # + 0.0 shows -0.0 as 0
+
+
+def _others_table(others: list[State]) -> Iterator[RenderableType]:
+    if not others:
+        yield Text("no other equilibrium")
+        return
+    table = Table(title="other equilibria", title_justify="left", box=SIMPLE_HEAD)
+    table.add_column("shape")
+    for heading in ("eps", "K1", "K2", "K3", "energy"):
+        table.add_column(heading, justify="right")
+    table.add_column("stable")
+    for state in others:
+        stable = "yes" if state.stable else f"no, section_index {state.section_index}"
+        strains = (_figures(value) for value in state.strain)
+        table.add_row(_described(state), *strains, _figures(state.energy), stable)
+    yield table

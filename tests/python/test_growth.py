@@ -1,0 +1,139 @@
+"""Growths, their sums and what they refuse."""
+
+import math
+
+import numpy as np
+import pytest
+import ribbonrs as rb
+from hypothesis import given
+from hypothesis import strategies as st
+from refusal import NOT_FINITE, NOT_NUMBERS, refuses
+from ribbonrs.growth import FIELDS
+
+amplitudes = st.floats(-0.1, 0.1)
+coefficients = st.lists(st.floats(-1.0, 1.0), min_size=1, max_size=33)
+
+
+def test_the_kinds_of_growth():
+    assert rb.growth.edge(0.06).fields() == {"gamma33": [0.0, 0.0, 0.24]}
+    assert rb.growth.thickness(0.3).fields() == {"d33": [0.3]}
+    assert rb.growth.thickness(0.3, transverse=-0.15).fields() == {"d33": [0.3], "d22": [-0.15]}
+    assert rb.growth.thickness(0.0, transverse=0.2).fields() == {"d22": [0.2]}
+    assert rb.growth.chiral(-0.04).fields() == {"d23": [-0.04]}
+
+
+def test_the_amplitude_is_the_parameter():
+    growth = rb.growth.edge(0.06) + rb.growth.chiral(0.04) + rb.growth.thickness(0.1, 0.3)
+    growth += rb.growth.Profile(g21=[1.0, 2.0], amplitude=0.5)
+    assert [(term.name, term.amplitude) for term in growth.terms] == [
+        ("edge", 0.06),
+        ("chiral", 0.04),
+        ("thickness", 0.1),
+        ("profile", 0.5),
+    ]
+    assert growth.fields()["g21"] == [0.5, 1.0]
+
+
+def test_edge_growth_is_xi_at_the_edges():
+    values = np.polynomial.polynomial.polyval([-0.5, 0.0, 0.5], rb.growth.edge(0.06).fields()["gamma33"])
+    assert values.tolist() == [0.06, 0.0, 0.06]
+
+
+@given(st.lists(st.tuples(st.sampled_from(FIELDS), coefficients, amplitudes), min_size=1, max_size=4))
+def test_sums_add_field_by_field(parts):
+    terms = [
+        rb.growth.Profile(**{field: list(c)}, amplitude=a, name=f"p{i}")
+        for i, (field, c, a) in enumerate(parts)
+    ]
+    total = sum(terms).fields()
+    assert set(total) == {field for field, _, _ in parts}
+    x = np.linspace(-0.5, 0.5, 7)
+    for field in total:
+        expected = sum(a * np.polynomial.polynomial.polyval(x, c) for f, c, a in parts if f == field)
+        found = np.polynomial.polynomial.polyval(x, total[field])
+        # At most 4 terms of size 0.1 * 2 each, every one rounded a few times.
+        assert found == pytest.approx(expected, abs=1e-15)
+
+
+@given(coefficients)
+def test_size_is_the_largest_value(c):
+    growth = rb.growth.Profile(gamma33=c)
+    x = np.linspace(-0.5, 0.5, 4001)
+    largest = np.max(np.abs(np.polynomial.polynomial.polyval(x, c)))
+    # Both are maxima over points; the Chebyshev points miss at most 0.2 %, the others less than 1 %.
+    assert growth.size(0.1) == pytest.approx(largest, rel=1e-2, abs=1e-300)
+
+
+def test_size_of_gradients_is_taken_at_the_faces():
+    assert rb.growth.thickness(0.4, transverse=-0.6).size(0.1) == pytest.approx(0.03, rel=1e-15)
+    assert rb.growth.edge(-0.2).size(0.1) == pytest.approx(0.2, rel=1e-15)
+    assert (rb.growth.edge(0.02) + rb.growth.chiral(1.0)).size(0.1) == pytest.approx(0.05, rel=1e-15)
+    assert rb.growth.edge(0.0).size(0.1) == 0.0
+
+
+def test_sums_leave_their_parts_alone():
+    edge, chiral = rb.growth.edge(0.06), rb.growth.chiral(0.04)
+    both = edge + chiral
+    assert both == sum([edge, chiral])
+    assert edge == rb.growth.edge(0.06)
+    both.fields()["gamma33"].append(1.0)
+    assert both.fields()["gamma33"] == [0.0, 0.0, 0.24]
+    with pytest.raises(TypeError):
+        edge + 1.0
+    with pytest.raises(TypeError):
+        1.0 + edge
+
+
+def test_names_in_a_sum_differ():
+    refuses("growth.name", lambda: rb.growth.edge(0.1) + rb.growth.edge(0.1))
+    two = rb.growth.edge(0.1) + rb.growth.edge(0.1, name="margin")
+    assert two.fields() == {"gamma33": [0.0, 0.0, 0.8]}
+
+
+@pytest.mark.parametrize("name", ["", "a b", "a.b", "a\nb", 3, None, b"x", "1st"])
+def test_names_are_identifiers(name):
+    for make in (rb.growth.edge, rb.growth.thickness, rb.growth.chiral):
+        refuses("growth.name", lambda make=make: make(0.1, name=name))
+    refuses("growth.name", lambda: rb.growth.Profile(d33=[0.1], name=name))
+
+
+@pytest.mark.parametrize("value", NOT_NUMBERS + NOT_FINITE)
+def test_growth_refuses_what_is_no_number(value):
+    refuses("growth.edge", lambda: rb.growth.edge(value))
+    refuses("growth.margin", lambda: rb.growth.edge(value, name="margin"))
+    refuses("growth.chiral", lambda: rb.growth.chiral(value))
+    refuses("growth.thickness.xi", lambda: rb.growth.thickness(value))
+    refuses("growth.thickness.transverse", lambda: rb.growth.thickness(0.1, value))
+    refuses("growth.profile.amplitude", lambda: rb.growth.Profile(d33=[0.1], amplitude=value))
+    refuses("growth.profile.d33[1]", lambda: rb.growth.Profile(d33=[0.1, value]))
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        [],
+        np.zeros(34),
+        0.1,
+        "0.1",
+        np.array(0.1),
+        math.sin,
+        {0: 1.0},
+    ],
+)
+def test_profiles_are_short_lists_of_coefficients(value):
+    for field in FIELDS:
+        refuses(f"growth.profile.{field}", lambda field=field: rb.growth.Profile(**{field: value}))
+
+
+@pytest.mark.parametrize("value", [np.eye(2), [[0.1], [0.2]], ([0.0, 1.0], [0.0, 0.1])])
+def test_samples_are_refused_by_their_first_entry(value):
+    refuses("growth.profile.gamma33[0]", lambda: rb.growth.Profile(gamma33=value))
+
+
+def test_profile_needs_a_field():
+    refuses("growth.profile", lambda: rb.growth.Profile())
+
+
+def test_overflowing_sums_are_refused():
+    refuses("growth.gamma33", lambda: rb.growth.edge(1e308))
+    refuses("growth.d33", lambda: rb.growth.Profile(d33=[1e300], amplitude=1e300))

@@ -1,0 +1,285 @@
+"""Scene files say the same as the Python objects, and say in one line what is wrong with them."""
+
+import math
+from pathlib import Path
+
+import pytest
+import ribbonrs as rb
+from ribbonrs.scenefile import read
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+RIBBON = "[ribbon]\nlength = 10.0\nwidth = 1.0\nthickness = 0.1\n"
+GROWTH = "[growth]\nedge = 0.06\n"
+SCENE = RIBBON + GROWTH
+
+
+@pytest.fixture
+def job(tmp_path, monkeypatch):
+    """Read a scene given as text, in an empty current directory."""
+    monkeypatch.chdir(tmp_path)
+
+    def read_text(text):
+        content = text if isinstance(text, bytes) else text.encode()
+        Path("scene.toml").write_bytes(content)
+        return read("scene.toml")
+
+    return read_text
+
+
+@pytest.fixture
+def refusal(job):
+    """The one line in which a scene is refused."""
+
+    def line(text):
+        with pytest.raises(rb.InputError) as caught:
+            job(text)
+        assert len(str(caught.value).splitlines()) == 1
+        return str(caught.value)
+
+    return line
+
+
+def test_example_equals_its_python_objects(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    job = read(EXAMPLES / "helical_leaf.toml")
+    leaf = rb.Ribbon(length=10.0, width=1.0, thickness=0.1)
+    growth = rb.growth.edge(0.06) + rb.growth.chiral(0.04)
+    assert job.scene == rb.Scene(leaf, growth, start=rb.Clamped(), end=rb.Free())
+    assert [(output.field, str(output.path)) for output in job.outputs] == [
+        ("output.figure", "helical_leaf.png"),
+        ("output.surface", "helical_leaf.vtp"),
+        ("output.data", "helical_leaf.npz"),
+    ]
+    assert job.has_trace
+
+
+@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
+def test_examples_name_their_outputs_after_themselves(path, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    job = read(path)
+    assert job.outputs
+    assert {output.path.stem for output in job.outputs} == {path.stem}
+
+
+def test_tables_left_out_have_the_defaults_of_python(job):
+    read = job(SCENE)
+    assert read.scene == rb.Scene(rb.Ribbon(10.0, 1.0, 0.1), rb.growth.edge(0.06))
+    assert read.outputs == ()
+    assert not read.has_trace
+
+
+def test_every_growth(job):
+    text = """
+    edge = 0.01
+    thickness = { xi = 0.02, transverse = -0.01 }
+    chiral = 0.03
+    [[growth.profile]]
+    gamma33 = [0.0, 0.01]
+    g21 = [0, 1e-3]
+    [[growth.profile]]
+    name = "vein"
+    amplitude = 0.5
+    gamma22 = [0.01]
+    """
+    growth = rb.growth.edge(0.01) + rb.growth.thickness(0.02, transverse=-0.01) + rb.growth.chiral(0.03)
+    growth += rb.growth.Profile(gamma33=[0.0, 0.01], g21=[0.0, 1e-3])
+    growth += rb.growth.Profile(gamma22=[0.01], amplitude=0.5, name="vein")
+    assert job(RIBBON + "[growth]" + text).scene.growth == growth
+
+
+def test_short_forms_of_growth(job):
+    assert job(RIBBON + "[growth]\nthickness = 0.02").scene.growth == rb.growth.thickness(0.02)
+    assert job(RIBBON + "[growth.profile]\nd22 = [0.1]").scene.growth == rb.growth.Profile(d22=[0.1])
+
+
+@pytest.mark.parametrize(
+    ("text", "material"),
+    [
+        ('kind = "isotropic"', rb.Isotropic()),
+        ('kind = "isotropic"\nY = 2\nnu = 0.3', rb.Isotropic(2.0, 0.3)),
+        ('kind = "mooney-rivlin"\nc1 = 1\nc2 = 0.5', rb.MooneyRivlin(1.0, 0.5)),
+        ('kind = "orthotropic"\nQ33 = 3\nQ22 = 2\nQ23 = 1\nG = 0.5', rb.Orthotropic(3.0, 2.0, 1.0, 0.5)),
+    ],
+)
+def test_materials(job, text, material):
+    assert job(SCENE + "[material]\n" + text).scene.ribbon.material == material
+
+
+def test_start_end_and_law(job):
+    text = 'law = "quadratic"\n' + SCENE + '[start]\nkind = "clamped"\nposition = [1, 2, 3]\n'
+    text += 'rotation = [0.0, 0.6, 0.0, 0.8]\ntwist_turns = 0.5\n[end]\nkind = "free"\nforce = [0, 0, 0]\n'
+    scene = job(text).scene
+    assert scene.start == rb.Clamped((1.0, 2.0, 3.0), (0.0, 0.6, 0.0, 0.8), 0.5)
+    assert scene.end == rb.Free()
+    assert scene.law == "quadratic"
+
+
+def test_windows_text(job):
+    assert job(b"\xef\xbb\xbf" + SCENE.replace("\n", "\r\n").encode()).scene == job(SCENE).scene
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        # unknown keys, with the nearest known one
+        (
+            SCENE.replace("length", "lenght"),
+            "ribbon.lenght = 10.0: expected one of length, width, thickness; the nearest is length",
+        ),
+        (
+            SCENE.replace("[growth]", "[grwoth]"),
+            "grwoth = {'edge': 0.06}: expected one of ribbon, material, growth, start, end, law, trace, output; "
+            "the nearest is growth",
+        ),
+        (
+            SCENE + '[end]\nkind = "free"\nforces = 1',
+            "end.forces = 1: expected one of kind, force, moment; the nearest is force",
+        ),
+        (
+            SCENE + '[[growth.profile]]\nname = "a"\n[[growth.profile]]\ngamma3 = 1',
+            "growth.profile[1].gamma3 = 1: expected one of name, amplitude, gamma33, d33, d22, d23, g21, g31, "
+            "gamma22, gamma23; the nearest is gamma33",
+        ),
+        (
+            SCENE + '[output]\n"sur\\nface" = 1',
+            "output.'sur\\nface' = 1: expected one of figure, surface, data; the nearest is surface",
+        ),
+        # missing keys and tables
+        (RIBBON, "growth is missing: expected a table"),
+        ("", "ribbon is missing: expected a table"),
+        (SCENE.replace("width = 1.0\n", ""), "ribbon.width is missing: expected a value"),
+        (SCENE + "[start]\nposition = [0, 0, 0]", "start.kind is missing: expected one of clamped, free"),
+        (SCENE + '[material]\nkind = "mooney-rivlin"\nc1 = 1', "material.c2 is missing: expected a value"),
+        (SCENE + '[trace]\nparameter = "growth.edge.amplitude"', "trace.span is missing: expected a value"),
+        (RIBBON + "[growth]", "growth = {}: expected at least one of edge, thickness, chiral, profile"),
+        (
+            RIBBON + "[growth.profile]",
+            "growth.profile = {}: expected at least one of gamma33, d33, d22, d23, g21, g31, gamma22, gamma23",
+        ),
+        # wrong tables
+        ("ribbon = 3\n" + GROWTH, "ribbon = 3: expected a table"),
+        (
+            SCENE.replace("[ribbon]", "[[ribbon]]"),
+            "ribbon = [{'length': 10.0, 'thickness': 0.1, 'width': 1.0}]: ",
+        ),
+        (SCENE + "[[end]]", "end = [{}]: expected a table"),
+        (SCENE + "profile = 1", "growth.profile[0] = 1: expected a table"),
+        (SCENE + "[growth.edge]", "scene file = 'scene.toml': expected TOML, not: "),
+        (
+            SCENE + '[end]\nkind = "pinned"',
+            "end.kind = 'pinned': expected one of clamped, free",
+        ),
+        (
+            SCENE + "[material]\nkind = []",
+            "material.kind = []: expected one of isotropic, mooney-rivlin, orthotropic",
+        ),
+        # values
+        (SCENE.replace("10.0", '"10"'), "ribbon.length = '10': expected a positive finite number"),
+        (SCENE.replace("10.0", "true"), "ribbon.length = True: expected a positive finite number"),
+        (SCENE.replace("10.0", "nan"), "ribbon.length = nan: expected a positive finite number"),
+        (SCENE.replace("10.0", "-inf"), "ribbon.length = -inf: expected a positive finite number"),
+        (
+            SCENE.replace("10.0", "1979-05-27"),
+            "ribbon.length = datetime.date(1979, 5, 27): expected a positive",
+        ),
+        (SCENE.replace("0.1", "1.0"), "ribbon.thickness = 1.0: expected less than ribbon.width = 1.0"),
+        (SCENE.replace("0.06", "inf"), "growth.edge = inf: expected a finite number"),
+        (
+            SCENE.replace("0.06", "0.7"),
+            "growth.size = 0.7: expected at most 0.5, since the theory is for small",
+        ),
+        (SCENE + "thickness = [1]", "growth.thickness.xi = [1]: expected a finite number"),
+        (
+            SCENE + '[growth.profile]\nname = "edge"\nd33 = [1]',
+            "growth.name = 'edge': expected a different name for each growth of a sum",
+        ),
+        (
+            SCENE + '[material]\nkind = "isotropic"\nnu = 0.6',
+            "material.nu = 0.6: expected a number in (-1, 0.5]",
+        ),
+        ('law = "Full"\n' + SCENE, "law = 'Full': expected one of full, quadratic"),
+        # ends know which they are
+        (
+            SCENE + '[start]\nkind = "clamped"\nrotation = [1, 1, 0, 0]',
+            "start.rotation = [1, 1, 0, 0]: expected a unit quaternion, scalar first, or a rotation vector of",
+        ),
+        (
+            SCENE + '[end]\nkind = "free"\nforce = [0, nan, 0]',
+            "end.force[1] = nan: expected a finite number",
+        ),
+        (
+            SCENE + '[end]\nkind = "free"\nmoment = [0, 1, 0]',
+            "end.moment = (0.0, 1.0, 0.0): expected zero: this",
+        ),
+        (SCENE + '[end]\nkind = "clamped"', "end = Clamped("),
+        (SCENE + '[start]\nkind = "free"', "start = Free("),
+        # trace
+        (SCENE + "[trace]\nparameter = 1\nspan = [0, 1]", "trace.parameter = 1: expected a name, such as"),
+        (
+            SCENE + '[trace]\nparameter = "a"\nspan = [0, 1, 2]',
+            "trace.span = [0, 1, 2]: expected two finite numbers",
+        ),
+        (
+            SCENE + '[trace]\nparameter = "a"\nspan = [0, nan]',
+            "trace.span[1] = nan: expected a finite number",
+        ),
+        # outputs
+        (SCENE + "[output]\nfigure = 3", "output.figure = 3: expected a file name"),
+        (SCENE + '[output]\nfigure = "a\\u0000.png"', "output.figure = 'a\\x00.png': expected a file name"),
+        (
+            SCENE + '[output]\nfigure = "a.vtp"',
+            "output.figure = 'a.vtp': expected a file name ending in .png or .pdf or .svg",
+        ),
+        (
+            SCENE + '[output]\nsurface = "a"',
+            "output.surface = 'a': expected a file name ending in .vtp or .obj",
+        ),
+        (
+            SCENE + '[output]\ndata = "no/such/a.npz"',
+            "output.data = 'no/such/a.npz': expected a file in a directory that exists",
+        ),
+        (
+            SCENE + '[output]\nsurface = ["a.vtp", "./a.vtp"]',
+            "output.surface[1] = './a.vtp': expected a different file for each output",
+        ),
+        # broken TOML, with its place
+        (
+            "[ribbon]\nlength = = 3",
+            "scene file = 'scene.toml': expected TOML, not: Invalid value (at line 2, column 10)",
+        ),
+        ("[ribbon", "scene file = 'scene.toml': expected TOML, not: "),
+        ("a = " + "[" * 20000, "scene file = 'scene.toml': expected "),
+        (b"a = '\xff'", "scene file = 'scene.toml': expected UTF-8 text, unlike byte 5"),
+    ],
+)
+def test_one_line_says_what_is_wrong(refusal, text, line):
+    assert refusal(text).startswith(line)
+
+
+def test_huge_values_make_short_lines(refusal):
+    assert len(refusal(SCENE.replace("10.0", "0x" + "f" * 9000))) < 200
+    assert len(refusal(SCENE.replace("10.0", "1" * 9000))) < 200
+    assert len(refusal(SCENE.replace("10.0", "'" + "x" * 9000 + "'"))) < 200
+    assert len(refusal(SCENE.replace("10.0", "[" + "1," * 9000 + "]"))) < 200
+    assert len(refusal(SCENE + "edge" + ".a" * 9000 + " = 1")) < 200
+
+
+def test_directory_in_the_place_of_an_output(refusal, tmp_path):
+    (tmp_path / "a.png").mkdir()
+    line = refusal(SCENE + '[output]\nfigure = "a.png"')
+    assert line == "output.figure = 'a.png': expected a file, not a directory"
+
+
+def test_files_that_cannot_be_read(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name, reason in (("none.toml", "No such file or directory"), (".", "Is a directory")):
+        with pytest.raises(rb.InputError) as caught:
+            read(name)
+        assert str(caught.value) == f"scene file = '{name}': expected a readable file, not: {reason}"
+
+
+def test_growth_at_the_limit_of_the_theory_warns(job):
+    with pytest.warns(rb.RibbonWarning):
+        size = job(SCENE.replace("0.06", "0.5")).scene.growth.size(0.1)
+    assert math.isclose(size, 0.5)

@@ -1,0 +1,146 @@
+"""The ribbon as shaded quadrilaterals in the plane of the picture, for any drawing library.
+
+A parallel projection, so that lengths compare in all parts of the picture. Only cells that face the viewer
+are kept, sorted from back to front: painting them in order hides what lies behind.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .arrays import Array
+from .surface import layer
+
+if TYPE_CHECKING:
+    from .state import State
+
+__all__ = ["Picture", "render"]
+
+# A ribbon of more turns is drawn up to here: the rest would only be a grey band.
+MAX_TURNS = 20.0
+CELLS_PER_TURN = 96.0
+CELLS_PER_WIDTH = 6.0
+MIN_ALONG, MAX_ALONG = 240, 2400
+CELLS, MIN_ACROSS, MAX_ACROSS = 20_000, 32, 100
+OUTLINE = 0.012
+"""Width of the dark outline along the edges, in units of the ribbon's width."""
+
+# The shape lies on its broadest side and is seen from above and from the side by these angles.
+ELEVATION, SIDE = math.radians(35.0), math.radians(15.0)
+
+# Light from the upper left and front, in the frame of the picture: right, up, towards the viewer.
+LIGHT = np.array([-0.40, 0.62, 0.67])
+DARKEST, GLOSS, SHARPNESS = 0.5, 0.16, 24
+OUTLINE_SHADE, WALL_SHADE = 0.35, 0.62
+
+
+@dataclass(frozen=True)
+class Picture:
+    """m cells in the plane of the picture, from back to front; lengths in units of the width.
+
+    Attributes
+    ----------
+    cells : (m, 4, 2) array
+        Corners: right, up.
+    x : (m,) array
+        X2/a of the middle of each cell.
+    shade : (m,) array
+        Light that the cell sends back, 0 (dark) to 1.
+    gloss : (m,) array
+        Part of white light on top of it.
+    axes : (3, 2) array
+        E1, E2, E3 in the plane of the picture.
+    drawn : float
+        How much of the length is in the picture, 0 to 1.
+    """
+
+    cells: Array
+    x: Array
+    shade: Array
+    gloss: Array
+    axes: Array
+    drawn: float
+
+    @property
+    def extent(self) -> tuple[Array, Array]:
+        """Lower left and upper right corner."""
+        return self.cells.min(axis=(0, 1)), self.cells.max(axis=(0, 1))
+
+    @property
+    def aspect(self) -> float:
+        """Width over height."""
+        low, high = self.extent
+        return float(np.divide(*(high - low)))
+
+
+def render(state: State) -> Picture:
+    """Return the body of `state` as cells to paint: both faces, the edges and the ends."""
+    length, turns = state.scene.ribbon.length_ratio, state.helix.turns
+    drawn = min(1.0, MAX_TURNS / turns) if turns else 1.0
+    wanted = drawn * max(CELLS_PER_TURN * turns, CELLS_PER_WIDTH * length)
+    along = int(np.clip(wanted, MIN_ALONG, MAX_ALONG))
+    across = int(np.clip(CELLS / along, MIN_ACROSS, MAX_ACROSS))
+    S = np.linspace(0.0, drawn * length, along + 1)
+    x = np.concatenate([[-0.5], np.linspace(-0.5 + OUTLINE, 0.5 - OUTLINE, across - 1), [0.5]])
+    half = state.scene.ribbon.thickness_ratio / 2
+    top, bottom = layer(state, S, x, half), layer(state, S, x, -half)
+
+    camera = _camera(np.concatenate([top, bottom], axis=1))
+    x_mid = (x[:-1] + x[1:]) / 2
+    face = np.where(np.abs(x_mid) > 0.5 - OUTLINE, OUTLINE_SHADE, 1.0)
+    parts = []
+    # each part: two rows of lines of points, such that the cells between them turn outwards
+    for lines, at, paint in (
+        (top, x_mid, face),
+        (bottom[:, ::-1], -x_mid, face),
+        (np.stack([bottom[:, 0], top[:, 0]], axis=1), x_mid[:1], np.array([WALL_SHADE])),
+        (np.stack([top[:, -1], bottom[:, -1]], axis=1), x_mid[-1:], np.array([WALL_SHADE])),
+        (np.stack([bottom[0], top[0]]), x_mid, np.full(across, WALL_SHADE)),
+        (np.stack([top[-1], bottom[-1]]), x_mid, np.full(across, WALL_SHADE)),
+    ):
+        corners = np.stack([lines[:-1, :-1], lines[1:, :-1], lines[1:, 1:], lines[:-1, 1:]], axis=2)
+        rows = corners.shape[0]
+        parts.append((corners.reshape(-1, 4, 3) @ camera.T, np.tile(at, rows), np.tile(paint, rows)))
+    corners, where, paint = (np.concatenate(items) for items in zip(*parts, strict=True))
+
+    normal = np.cross(corners[:, 3] - corners[:, 1], corners[:, 2] - corners[:, 0])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), np.finfo(float).tiny)
+    order = np.argsort(corners[:, :, 2].sum(axis=1))
+    order = order[normal[order, 2] > 0.0]
+    shade, gloss = _light(normal[order])
+    return Picture(corners[order, :, :2], where[order], shade * paint[order], gloss, camera[:2].T, drawn)
+
+
+def _camera(points: Array) -> Array:
+    """Rows: the directions right, up and towards the viewer, in the fixed basis.
+
+    The shape lies on its broadest side, its longest direction to the right and its start on the left.
+    """
+    cloud = points.reshape(-1, 3) - points.mean(axis=(0, 1))
+    _, axes = np.linalg.eigh(cloud.T @ cloud)
+    up, right = axes[:, 0], axes[:, 2]
+    ahead = points[-1].mean(axis=0) - points[0].mean(axis=0)
+    if right @ ahead < 0.0:
+        right = -right
+    if up[0] < 0.0:
+        up = -up
+    front = math.cos(SIDE) * np.cross(right, up) - math.sin(SIDE) * right
+    toward = math.cos(ELEVATION) * front + math.sin(ELEVATION) * up
+    # roll the picture so that the long direction is level in it
+    level = right - (right @ toward) * toward
+    level /= np.linalg.norm(level)
+    return np.stack([level, np.cross(toward, level), toward])
+
+
+def _light(normal: Array) -> tuple[Array, Array]:
+    """Diffuse and glossy light of cells with these outward normals."""
+    light = LIGHT / np.linalg.norm(LIGHT)
+    halfway = light + np.array([0.0, 0.0, 1.0])
+    halfway /= np.linalg.norm(halfway)
+    # light that wraps around the body: no part of it is black
+    shade = DARKEST + (1.0 - DARKEST) * (0.5 + 0.5 * (normal @ light)) ** 1.2
+    return shade, GLOSS * np.clip(normal @ halfway, 0.0, 1.0) ** SHARPNESS

@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 
 use super::strains_from;
 use crate::InvalidInput;
+use crate::equilibrium::natural_shapes;
 use crate::growth::Growth;
 use crate::material::PlaneStress;
 use crate::section::{Form, Section, Strain};
@@ -131,4 +132,29 @@ impl SectionLaw {
         };
         Ok(Array2::from_shape_fn((x.len(), 3), displacement).into_pyarray(py))
     }
+
+    /// Every unloaded equilibrium, lowest energy first: strains (m, 4), energies (m,), numbers of
+    /// negative Hessian eigenvalues (m,), phases, and whether each is told apart from the others.
+    fn natural_shapes<'py>(&self, py: Python<'py>) -> Shapes<'py> {
+        let shapes = py.detach(|| natural_shapes(&self.section));
+        let strains = Array2::from_shape_fn((shapes.len(), 4), |(i, c)| shapes[i].strain[c]);
+        let energies: Array1<f64> = shapes.iter().map(|s| s.energy).collect();
+        let indices: Array1<i64> = shapes.iter().map(|s| s.section_index as i64).collect();
+        let resolved: Array1<bool> = shapes.iter().map(|s| s.resolved).collect();
+        (
+            strains.into_pyarray(py),
+            energies.into_pyarray(py),
+            indices.into_pyarray(py),
+            shapes.iter().map(|s| s.phase.name()).collect(),
+            resolved.into_pyarray(py),
+        )
+    }
 }
+
+type Shapes<'py> = (
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<i64>>,
+    Vec<&'static str>,
+    Bound<'py, PyArray1<bool>>,
+);

@@ -1,0 +1,263 @@
+//! All natural shapes of a uniformly growing ribbon.
+
+use super::Phase;
+use super::reduced::{Coefficients, bound};
+use super::roots::roots;
+use crate::section::{Section, Strain};
+
+/// Equilibria closer than this in `K/eta` are not told apart.
+const RESOLUTION: f64 = 1e-6;
+
+/// Eigenvalues of the scaled Hessian above minus this count as not negative.
+const INDEX_TOLERANCE: f64 = 1e-13;
+
+/// An equilibrium of the unloaded, uniform ribbon.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Equilibrium {
+    /// `eps`, `K1`, `K2`, `K3`.
+    pub strain: Strain,
+    /// `Pi`.
+    pub energy: f64,
+    /// Number of negative eigenvalues of the 4x4 Hessian of `Pi`: 0 if stable.
+    pub section_index: usize,
+    /// Flat, bent, twisted or helical.
+    pub phase: Phase,
+    /// False if this stands for several equilibria closer than 1e-6 in `K/eta`, or for a place where
+    /// two such have just met or vanished.
+    pub resolved: bool,
+}
+
+/// Every equilibrium of the unloaded ribbon, lowest energy first; of mirror images the one with
+/// `K2 > 0`, then `K3 > 0`, first.
+///
+/// # Example
+/// ```
+/// use ribbonrs::{equilibrium::{Phase, natural_shapes}, growth::Growth, material::PlaneStress};
+/// use ribbonrs::section::{Form, Section};
+/// let growth = Growth::edge(0.06) + Growth::chiral(0.04);
+/// let law = Section::new(0.1, &growth, &PlaneStress::incompressible(), Form::Auto)?;
+/// let shapes = natural_shapes(&law);
+/// assert_eq!(shapes[0].phase, Phase::Helical);
+/// assert_eq!(shapes[0].section_index, 0);
+/// # Ok::<(), ribbonrs::InvalidInput>(())
+/// ```
+#[must_use]
+pub fn natural_shapes(section: &Section) -> Vec<Equilibrium> {
+    let known = section.relaxation().known_equilibria(section.reduction(), section.eta());
+    let points = match known {
+        Some(known) => known.iter().map(|&(k, q)| Point { k, q, resolved: true }).collect(),
+        None => search(section),
+    };
+    let mut found: Vec<Point> = points.iter().flat_map(|point| mirror_images(section, point)).collect();
+    merge(&mut found);
+    let mut shapes: Vec<Equilibrium> = found.iter().map(|point| equilibrium(section, point)).collect();
+    shapes.sort_by(|a, b| {
+        let bending = b.strain[2].total_cmp(&a.strain[2]);
+        a.energy.total_cmp(&b.energy).then(bending).then(b.strain[3].total_cmp(&a.strain[3]))
+    });
+    shapes
+}
+
+/// An equilibrium in scaled curvatures `k = K2/eta`, `q = K3/eta`.
+#[derive(Clone, Copy, Debug)]
+struct Point {
+    k: f64,
+    q: f64,
+    resolved: bool,
+}
+
+/// Equilibria up to mirror images, on every sheet of the torsion equation.
+fn search(section: &Section) -> Vec<Point> {
+    let symmetric = section.reduction().is_symmetric_in_bending();
+    let untwisted = section.reduction().k3 == 0.0;
+    let at = |k: f64| {
+        let coefficients = Coefficients::at(section, k);
+        if symmetric { coefficients.bending_over(k) } else { coefficients }
+    };
+    let mut found = Vec::new();
+    if symmetric {
+        for q in Coefficients::at(section, 0.0).twists() {
+            found.extend(polish(section, Point { k: 0.0, q, resolved: true }));
+        }
+    }
+    for (from, to) in intervals(section, symmetric) {
+        if !untwisted {
+            for root in roots(|k| at(k).resultant(), from, to) {
+                let starts = Coefficients::at(section, root.x).twists();
+                found.extend(nearest(section, root.x, &starts, root.simple));
+            }
+            continue;
+        }
+        for root in roots(|k| at(k).untwisted(), from, to) {
+            found.extend(nearest(section, root.x, &[0.0], root.simple));
+        }
+        for root in roots(|k| at(k).twisted(), from, to) {
+            let squared = at(root.x).twist_squared();
+            if squared > -RESOLUTION * RESOLUTION {
+                let simple = root.simple && squared > RESOLUTION * RESOLUTION;
+                found.extend(nearest(section, root.x, &[squared.max(0.0).sqrt()], simple));
+            }
+        }
+    }
+    found
+}
+
+/// Intervals of `k` that cover the bound, none longer than its distance from the poles at `+-7.46 i`
+/// and from the imaginary axis beyond.
+fn intervals(section: &Section, symmetric: bool) -> Vec<(f64, f64)> {
+    // The bound is attained by compatible growth; leave room for its rounding.
+    let bound = bound(section) * (1.0 + 1e-9);
+    let first = 4.0 * 3.0 * section.reduction().material.beta2.sqrt();
+    let mut intervals = Vec::new();
+    let (mut from, mut to) = (0.0, first);
+    while from < bound {
+        let end = to.min(bound);
+        intervals.push((from, end));
+        if !symmetric {
+            intervals.push((-end, -from));
+        }
+        (from, to) = (to, 2.0 * to);
+    }
+    intervals
+}
+
+/// Polishes the starts `(k, q)` and keeps what stays near `k`.
+///
+/// A cluster is tried from both its sides as well, to separate a close pair. If nothing stays, the start
+/// nearest to equilibrium is kept as unresolved where its imbalance is lost in rounding.
+fn nearest(section: &Section, k: f64, twists: &[f64], simple: bool) -> Vec<Point> {
+    let size = k.abs().max(1.0);
+    let offsets: &[f64] = if simple { &[0.0] } else { &[0.0, -1e-4, 1e-4] };
+    let starts = twists
+        .iter()
+        .flat_map(|&q| offsets.iter().map(move |offset| Point { k: k + offset * size, q, resolved: simple }));
+    let reach = if simple { 1e-5 } else { 1e-3 } * size;
+    let kept: Vec<Point> =
+        starts.filter_map(|start| polish(section, start)).filter(|p| (p.k - k).abs() < reach).collect();
+    if !kept.is_empty() {
+        return kept;
+    }
+    let imbalance = |q: f64| balance(section, k, q).relative_size();
+    let best = twists.iter().copied().min_by(|p, q| imbalance(*p).total_cmp(&imbalance(*q)));
+    best.filter(|&q| imbalance(q) < 1e-11).map(|q| Point { k, q, resolved: false }).into_iter().collect()
+}
+
+/// Gradient and Hessian of `Pi/eta^4` in `k`, `q` with `eps` and `K1` eliminated.
+struct Balance {
+    gradient: [f64; 2],
+    /// Sizes of the terms that cancel in the gradient.
+    scale: [f64; 2],
+    /// `kk, kq, qq`
+    hessian: [f64; 3],
+}
+
+impl Balance {
+    fn relative_size(&self) -> f64 {
+        let relative = |i: usize| self.gradient[i].abs() / self.scale[i].max(f64::MIN_POSITIVE);
+        relative(0).max(relative(1))
+    }
+
+    /// Number of negative eigenvalues.
+    fn index(&self) -> usize {
+        let [kk, kq, qq] = self.hessian;
+        let (mean, half) = (0.5 * (kk + qq), 0.5 * (kk - qq));
+        let radius = half.hypot(kq);
+        let tolerance = INDEX_TOLERANCE * (mean.abs() + radius).max(1.0);
+        [mean - radius, mean + radius].iter().filter(|&&e| e < -tolerance).count()
+    }
+}
+
+fn balance(section: &Section, k: f64, q: f64) -> Balance {
+    let r = section.reduction();
+    let (eta, g) = (section.eta(), r.material.twist);
+    let relaxed = section.relaxation().derivatives(k * eta, q * eta);
+    let bend = (k * eta + r.d33) / eta / 12.0;
+    let twist = 2.0 * g * (q - r.k3 / eta);
+    let relief = 2.0 * q * relaxed.dp;
+    Balance {
+        gradient: [bend + relaxed.d2, twist + relief],
+        scale: [bend.abs() + relaxed.d2.abs(), twist.abs() + relief.abs()],
+        hessian: [
+            1.0 / 12.0 + relaxed.d22,
+            2.0 * q * relaxed.d2p,
+            2.0 * g + 2.0 * relaxed.dp + 4.0 * q * q * relaxed.dpp,
+        ],
+    }
+}
+
+/// Newton's method in `(k, q)`; `None` if it does not settle.
+fn polish(section: &Section, start: Point) -> Option<Point> {
+    let Point { mut k, mut q, resolved } = start;
+    let mut previous = f64::INFINITY;
+    for _ in 0..40 {
+        let Balance { gradient: [g0, g1], hessian: [kk, kq, qq], .. } = balance(section, k, q);
+        // The symmetric states k = 0 and q = 0 are kept exactly.
+        let (dk, dq) = if k == 0.0 && g0 == 0.0 {
+            (0.0, -g1 / qq)
+        } else if q == 0.0 && g1 == 0.0 {
+            (-g0 / kk, 0.0)
+        } else {
+            let determinant = kk * qq - kq * kq;
+            ((kq * g1 - qq * g0) / determinant, (kq * g0 - kk * g1) / determinant)
+        };
+        let size = k.abs().max(q.abs()).max(1.0);
+        let step = dk.abs().max(dq.abs()) / size;
+        if !step.is_finite() && g0 == 0.0 && g1 == 0.0 {
+            return Some(Point { k, q, resolved: false });
+        }
+        if !step.is_finite() || step > 10.0 {
+            return None;
+        }
+        // Steps that no longer shrink are rounding.
+        if step <= 4.0 * f64::EPSILON || (step < 1e-9 && step >= 0.5 * previous) {
+            return Some(Point { k: k + dk, q: q + dq, resolved });
+        }
+        (k, q, previous) = (k + dk, q + dq, step);
+    }
+    None
+}
+
+/// The point with its images under the symmetries of the growth.
+fn mirror_images(section: &Section, point: &Point) -> Vec<Point> {
+    let r = section.reduction();
+    let mut images = vec![*point];
+    if r.is_symmetric_in_bending() && point.k != 0.0 {
+        images.push(Point { k: -point.k, ..*point });
+    }
+    if r.k3 == 0.0 && point.q != 0.0 {
+        images.extend(images.clone().iter().map(|p| Point { q: -p.q, ..*p }));
+    }
+    images
+}
+
+/// Merges what is closer than [`RESOLUTION`]: repeats of one equilibrium silently, different ones
+/// into a single unresolved point.
+fn merge(points: &mut Vec<Point>) {
+    // Of several, keep the one with the most symmetry, then the resolved one.
+    let rank = |p: &Point| (p.k != 0.0, p.q != 0.0, !p.resolved);
+    points.sort_by_key(rank);
+    let mut kept: Vec<Point> = Vec::new();
+    for point in points.iter() {
+        let distance = |p: &Point| (p.k - point.k).abs().max((p.q - point.q).abs());
+        let size = point.k.abs().max(point.q.abs()).max(1.0);
+        match kept.iter_mut().find(|p| distance(p) < RESOLUTION * size) {
+            Some(p) => p.resolved &= point.resolved && distance(p) < 1e-9 * size,
+            None => kept.push(*point),
+        }
+    }
+    *points = kept;
+}
+
+fn equilibrium(section: &Section, point: &Point) -> Equilibrium {
+    let r = section.reduction();
+    let eta = section.eta();
+    let (k2, k3) = (point.k * eta, point.q * eta);
+    let strain = Strain::new(r.eps - k3 * k3 / 24.0, r.k1, k2, k3);
+    Equilibrium {
+        strain,
+        energy: section.energy(&strain),
+        section_index: balance(section, point.k, point.q).index(),
+        phase: Phase::of(&strain, eta),
+        resolved: point.resolved,
+    }
+}

@@ -77,7 +77,7 @@ class SectionLaw:
         material = Isotropic() if material is None else material
         if not isinstance(material, Material):
             raise InputError("material", material, "Isotropic, MooneyRivlin or Orthotropic")
-        if law not in FORMS:
+        if not isinstance(law, str) or law not in FORMS:
             raise InputError("law", law, "one of " + ", ".join(FORMS))
         try:
             self.core = _core.SectionLaw(eta, material.stiffness, growth.fields(), FORMS[law])

@@ -9,19 +9,32 @@ Examples
 
 from __future__ import annotations
 
+from importlib import import_module
+from types import ModuleType
+from typing import TYPE_CHECKING
+
 from . import growth
 from .ends import Clamped, Free
+from .equilibrium import natural_shapes, solve
 from .errors import ConvergenceError, InputError, RibbonError, RibbonWarning
+from .frame import integrate_frame
 from .growth import Growth
+from .helix import Helix
+from .law import SectionLaw
 from .material import Isotropic, MooneyRivlin, Orthotropic
 from .ribbon import Ribbon
 from .scene import Scene
+from .state import State
+
+if TYPE_CHECKING:
+    from . import analytic
 
 __all__ = [
     "Clamped",
     "ConvergenceError",
     "Free",
     "Growth",
+    "Helix",
     "InputError",
     "Isotropic",
     "MooneyRivlin",
@@ -30,5 +43,18 @@ __all__ = [
     "RibbonError",
     "RibbonWarning",
     "Scene",
+    "SectionLaw",
+    "State",
+    "analytic",
     "growth",
+    "integrate_frame",
+    "natural_shapes",
+    "solve",
 ]
+
+
+def __getattr__(name: str) -> ModuleType:
+    """Load the closed forms when they are first used: a third of what this package costs to import."""
+    if name == "analytic":
+        return import_module(".analytic", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

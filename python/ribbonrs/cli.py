@@ -10,8 +10,8 @@ import io
 import os
 import sys
 import warnings
-from collections.abc import Sequence
-from contextlib import ExitStack
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -31,17 +31,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     scene = _parser().parse_args(arguments).scene
     try:
         _run(scene)
-        sys.stdout.flush()
+        print(end="", flush=True)
     except InputError as error:
         return _fail(str(error), 2)
     except RibbonError as error:
         return _fail(str(error), 1)
     except KeyboardInterrupt:
         return _fail("interrupted", 130)
-    except BrokenPipeError:
-        # The reader has gone; keep the interpreter from flushing to it at exit.
+    except OSError as error:  # a closed pipe, a full disk: reading and writing files name their field instead
+        # Keep the interpreter from failing again at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 1
+        return 1 if isinstance(error, BrokenPipeError) else _fail(f"standard output: {error.strerror}", 1)
     return 0
 
 
@@ -79,19 +79,27 @@ def _write(state: State, outputs: Sequence[Output]) -> None:
     with ExitStack() as stack:
         moves = []
         for output in outputs:
-            try:
+            with _naming(output):
                 beside = TemporaryDirectory(prefix=".ribbonrs-", dir=output.path.parent)
                 written = Path(stack.enter_context(beside), output.path.name)
                 if output.field.startswith("output.figure"):
                     state.plot(written)
                 else:
                     state.save(written)
-            except OSError as error:
-                expected = f"a file that can be written, not: {error.strerror}"
-                raise InputError(output.field, str(output.path), expected) from None
-            moves.append((written, output.path))
-        for written, place in moves:
-            os.replace(written, place)
+            moves.append((output, written))
+        for output, written in moves:
+            with _naming(output):
+                written.replace(output.path)
+
+
+@contextmanager
+def _naming(output: Output) -> Iterator[None]:
+    """Turn a failure to write into an error that names the key of the scene file."""
+    try:
+        yield
+    except OSError as error:
+        expected = f"a file that can be written, not: {error.strerror}"
+        raise InputError(output.field, str(output.path), expected) from None
 
 
 def _fail(reason: str, status: int) -> int:

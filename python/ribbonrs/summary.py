@@ -53,8 +53,8 @@ def _described(state: State) -> str:
 
 def _stability(state: State) -> str:
     if state.stable:
-        return "stable: section_index 0, the section's stiffness is positive definite"
-    return f"unstable: section_index {state.section_index}, negative eigenvalues of the section's stiffness"
+        return "stable (section_index 0)"
+    return f"unstable (section_index {state.section_index})"
 
 
 def _state_table(state: State) -> Table:
@@ -97,13 +97,14 @@ def _others_table(others: list[State]) -> Iterator[RenderableType]:
     if not others:
         yield Text("no other equilibrium")
         return
-    table = Table(title="other equilibria", title_justify="left", box=SIMPLE_HEAD)
-    table.add_column("shape")
+    table = Table(title="other equilibria", title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
+    table.add_column("shape", no_wrap=True)
     for heading in ("eps", "K1", "K2", "K3", "energy"):
-        table.add_column(heading, justify="right")
-    table.add_column("stable")
+        table.add_column(heading, justify="right", no_wrap=True)
+    table.add_column("section_index", no_wrap=True)
     for state in others:
-        stable = "yes" if state.stable else f"no, section_index {state.section_index}"
-        strains = (_figures(value) for value in state.strain)
-        table.add_row(_described(state), *strains, _figures(state.energy), stable)
+        handed = state.helix.handedness
+        shape = state.phase if handed == "none" else f"{state.phase}, {handed}"
+        values = (f"{value + 0.0:.4g}" for value in (*state.strain, state.energy))
+        table.add_row(shape, *values, "0, stable" if state.stable else f"{state.section_index}")
     yield table

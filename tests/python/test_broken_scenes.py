@@ -1,0 +1,246 @@
+"""Thousands of broken scenes: each is run, or refused in one line; nothing else ever happens."""
+
+import contextlib
+import copy
+import io
+import json
+import math
+import os
+import sys
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from ribbonrs.cli import main
+
+SCENES = [
+    {
+        "ribbon": {"length": 10.0, "width": 1.0, "thickness": 0.1},
+        "growth": {"edge": 0.06, "chiral": 0.04},
+        "start": {"kind": "clamped", "position": [0.0, 1.0, 2.0], "rotation": [0.6, 0.0, 0.8, 0.0]},
+        "end": {"kind": "free", "force": [0.0, 0.0, 0.0]},
+        "trace": {"parameter": "growth.edge.amplitude", "span": [0.0, 0.08]},
+        "output": {"data": "a.npz"},
+    },
+    {
+        "law": "full",
+        "ribbon": {"length": 3, "width": 0.5, "thickness": 0.01},
+        "material": {"kind": "orthotropic", "Q33": 2.0, "Q22": 1.0, "Q23": 0.3, "G": 0.4},
+        "growth": {
+            "profile": [
+                {"gamma33": [0.0, 0.01, 0.02], "d22": [0.3]},
+                {"name": "vein", "amplitude": 0.5, "g21": [0.0, 0.01], "g31": [0.0, 0.0, 0.02]},
+            ]
+        },
+    },
+    {
+        "law": "quadratic",
+        "ribbon": {"length": 60.0, "width": 8.0, "thickness": 0.6},
+        "material": {"kind": "mooney-rivlin", "c1": 0.1, "c2": 0.05},
+        "growth": {"edge": 0.02},
+    },
+    {
+        "ribbon": {"length": 10.0, "width": 1.0, "thickness": 0.1},
+        "material": {"kind": "isotropic", "Y": 2.0, "nu": 0.3},
+        "growth": {"thickness": {"xi": 0.2, "transverse": -0.1}},
+        "start": {"kind": "clamped", "twist_turns": 0.5},
+    },
+]
+
+EXTREME = [0.0, -0.0, math.inf, -math.inf, math.nan, 5e-324, 1e-160, 1e-8, 1e8, 1e160, sys.float_info.max]
+junk = st.one_of(
+    st.sampled_from(EXTREME),
+    st.floats(),
+    st.integers(),
+    st.sampled_from([10**400, -(10**5000), 2**63]),
+    st.booleans(),
+    st.text(st.characters(codec="utf-8", exclude_characters="/"), max_size=8),
+    st.sampled_from(["clamped", "free", "isotropic", "quadratic", "edge", "x" * 5000]),
+    st.lists(st.floats(-1, 1), max_size=40),
+    st.lists(st.lists(st.integers(0, 3), max_size=2), max_size=3),
+    st.dictionaries(st.text(max_size=3), st.floats(), max_size=2),
+)
+
+
+@pytest.fixture(autouse=True, scope="module")
+def folder(tmp_path_factory):
+    """An empty current directory for the whole module."""
+    before = Path.cwd()
+    os.chdir(tmp_path_factory.mktemp("scenes"))
+    yield
+    os.chdir(before)
+
+
+def toml(value):
+    """Write a value as TOML, tables inline."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{json.dumps(key)} = {toml(entry)}" for key, entry in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(toml, value)) + "]"
+    if isinstance(value, bool | str):
+        return json.dumps(value)
+    return hex(value) if isinstance(value, int) and value >= 2**63 else huge_or_plain(value)
+
+
+def huge_or_plain(number):
+    """Write a number; Python itself does not print integers beyond 4300 digits."""
+    return "-1" + "0" * 5000 if number == -(10**5000) else repr(number)
+
+
+def document(scene):
+    """Write a scene as a TOML document."""
+    return "\n".join(f"{json.dumps(key)} = {toml(value)}" for key, value in scene.items()).encode()
+
+
+def places(value, path=()):
+    """Every path to an entry of a nested scene."""
+    entries = (
+        value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    )
+    for key, entry in entries:
+        yield (*path, key)
+        yield from places(entry, (*path, key))
+
+
+@st.composite
+def mutated(draw):
+    """A valid scene with one to three entries deleted, renamed, replaced, wrapped or moved."""
+    scene = copy.deepcopy(draw(st.sampled_from(SCENES)))
+    for _ in range(draw(st.integers(1, 3))):
+        *path, key = draw(st.sampled_from(list(places(scene)) or [("growth",)]))
+        parent = scene
+        for step in path:
+            parent = parent[step]
+        action = draw(st.sampled_from(["delete", "rename", "replace", "replace", "wrap", "move"]))
+        entry = parent[key] if action == "wrap" else parent.pop(key) if action != "replace" else None
+        if action == "rename" and isinstance(parent, dict):
+            at = draw(st.integers(0, len(key)))
+            parent[key[:at] + draw(st.text(max_size=2)) + key[at + 1 :]] = entry
+        elif action == "replace":
+            parent[key] = draw(junk)
+        elif action == "wrap":
+            parent[key] = draw(st.sampled_from([[entry], {"kind": entry}, {key: entry}, [entry, entry]]))
+        elif action == "move" and isinstance(key, str):
+            scene[key] = entry
+    return document(scene)
+
+
+@st.composite
+def extreme(draw):
+    """A valid scene whose numbers are any number."""
+    scene = copy.deepcopy(draw(st.sampled_from(SCENES)))
+    size = draw(st.sampled_from([1.0, 1e3, 1e300]))
+    number = st.one_of(st.floats(-size, size), st.sampled_from(EXTREME))
+    for *path, key in list(places(scene)):
+        parent = scene
+        for step in path:
+            parent = parent[step]
+        if isinstance(parent[key], float) and draw(st.booleans()):
+            parent[key] = draw(number)
+    return document(scene)
+
+
+@st.composite
+def garbled(draw):
+    """The text of a valid scene with bytes deleted, inserted, repeated or cut off."""
+    scene = draw(st.sampled_from(SCENES))
+    marks = st.sampled_from([b"[", b"]", b"{", b"\n", b"=", b'"', b"."])
+    text = document({key: value for key, value in scene.items() if key != "output"})
+    for _ in range(draw(st.integers(1, 4))):
+        i, j = sorted(draw(st.tuples(st.integers(0, len(text)), st.integers(0, len(text)))))
+        middle = draw(
+            st.one_of(st.binary(max_size=4), st.sampled_from([b"[", b"]", b"{", b"\n", b"=", b'"', b"."]))
+        )
+        action = draw(st.sampled_from(["insert", "delete", "repeat", "cut"]))
+        if action == "insert":
+            text = text[:i] + middle + text[i:]
+        elif action == "delete":
+            text = text[:i] + text[min(j, i + 8) :]
+        elif action == "repeat":
+            text = text[:j] + text[i:]
+        else:
+            text = text[:i]
+    return text
+
+
+@st.composite
+def nested(draw):
+    """Brackets, tables and dotted keys, up to thousands deep."""
+    depth = draw(st.sampled_from([1, 50, 90, 200, 400, 900, 3000, 20000]))
+    opening, closing = draw(st.sampled_from([("[", "]"), ("{a=", "}"), ("[{a=", "}]"), ("[[", "]]")]))
+    closed = draw(st.sampled_from([0, depth // 2, depth]))
+    value = draw(
+        st.sampled_from(
+            [
+                "a = " + opening * depth + "1" + closing * closed,
+                "growth = " + opening * depth + "1" + closing * closed,
+                "ribbon.length = " + opening * depth + "1" + closing * closed,
+                "growth" + ".edge" * depth + " = 1",
+                "[ribbon" + ".length" * depth + "]",
+                "[[growth.profile" + ".gamma33" * depth + "]]",
+            ]
+        )
+    )
+    return value.encode()
+
+
+def check(content):
+    """Run a scene: 0, or 2 and one line, or 1 where the quadratic law has no stable state."""
+    Path("scene.toml").write_bytes(content)
+    with contextlib.redirect_stdout(io.StringIO()) as out, contextlib.redirect_stderr(io.StringIO()) as err:
+        status = main(["run", "scene.toml"])
+    lines = [line for line in err.getvalue().splitlines() if not line.startswith("ribbonrs: warning: ")]
+    written = {path.name for path in Path().iterdir()} - {"scene.toml"}
+    for name in written:
+        Path(name).unlink()
+    assert (out.getvalue() == "") == (status != 0)
+    assert status == 0 or not written
+    if status == 0:
+        assert lines == []
+        assert "nan" not in out.getvalue()
+    elif status == 1:
+        assert b"quadratic" in content
+        assert "equilibria is stable" in lines[0]
+    else:
+        assert status == 2
+        assert lines[0].startswith("ribbonrs: ")
+        assert ": expected " in lines[0]
+        assert len(lines[0]) < 500
+    assert len(lines) == (status != 0)
+    return status
+
+
+@pytest.mark.parametrize("scene", SCENES, ids=["helix", "profile", "quadratic", "saddle"])
+def test_whole_scenes_run(scene):
+    assert check(document(scene)) == 0
+
+
+@settings(max_examples=2000)
+@given(mutated())
+def test_mutated_scenes(content):
+    check(content)
+
+
+@settings(max_examples=1000)
+@given(extreme())
+def test_extreme_numbers(content):
+    check(content)
+
+
+@settings(max_examples=1000)
+@given(garbled())
+def test_garbled_text(content):
+    check(content)
+
+
+@settings(max_examples=300)
+@given(nested())
+def test_deep_nesting(content):
+    assert check(content) == 2
+
+
+@settings(max_examples=500)
+@given(st.one_of(st.binary(), st.text().map(lambda text: text.encode(errors="surrogatepass"))))
+def test_random_bytes(content):
+    assert check(content) == 2

@@ -1,0 +1,200 @@
+"""The command line: what it prints, writes, and how it ends."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import ribbonrs as rb
+from ribbonrs.cli import main
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+SCENE = """
+[ribbon]
+length = 30.0
+width = 2.0
+thickness = 0.2
+[growth]
+edge = 0.06
+chiral = 0.04
+"""
+
+
+@pytest.fixture
+def scene(tmp_path, monkeypatch):
+    """Write a scene into an empty current directory and return its name."""
+    monkeypatch.chdir(tmp_path)
+
+    def write(text):
+        Path("scene.toml").write_text(text)
+        return "scene.toml"
+
+    return write
+
+
+def run_process(*arguments, **options):
+    """Run the command line as a process of its own."""
+    command = [sys.executable, "-m", "ribbonrs", *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=False, **options)
+
+
+def files():
+    """Every file and directory in the current directory but the scene."""
+    return sorted(path.name for path in Path().iterdir() if path.name != "scene.toml")
+
+
+@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
+def test_examples_run_and_write_what_they_say(path, tmp_path):
+    done = run_process("run", str(path), cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    written = sorted(file.name for file in tmp_path.iterdir())
+    assert written == sorted(
+        line.removeprefix("wrote ") for line in done.stdout.splitlines() if "wrote" in line
+    )
+    assert {Path(name).suffix for name in written} >= {".png", ".vtp", ".npz"}
+    assert all((tmp_path / name).stat().st_size > 1000 for name in written)
+
+
+def test_summary_shows_the_state_in_both_units(scene, capsys):
+    assert main(["run", scene(SCENE)]) == 0
+    screen, errors = capsys.readouterr()
+    assert errors == ""
+    leaf = rb.Ribbon(30.0, 2.0, 0.2)
+    growth = rb.growth.edge(0.06) + rb.growth.chiral(0.04)
+    state = rb.solve(rb.Scene(leaf, growth))
+    rows = {
+        line.split("  ")[1].strip(): line.split()[-2:]
+        for line in screen.splitlines()
+        if line.startswith("  ")
+    }
+    for row, value, unit in (
+        ("axial strain", state.strain[0], 1.0),
+        ("curvature out of the plane", state.strain[2], 1 / 2.0),
+        ("twist", state.strain[3], 1 / 2.0),
+        ("radius of the helix", state.helix.radius, 2.0),
+        ("pitch of the helix", state.helix.pitch, 2.0),
+        ("energy per length", state.energy, 0.2 * 2.0),
+    ):
+        assert [float(number) for number in rows[row]] == pytest.approx([value, value * unit], rel=1e-5)
+    assert "helical, right-handed" in screen
+    assert "stable (section_index 0)" in screen
+    others = [other for other in rb.natural_shapes(leaf, growth) if (other.strain != state.strain).any()]
+    table = screen[screen.index("other equilibria") :].splitlines()[4:]
+    shapes = [line.split(",")[0].strip() for line in table[: len(others)]]
+    assert shapes == [other.phase for other in others]
+    assert table[len(others)].strip() == ""
+
+
+def test_files_are_in_the_users_units(scene):
+    assert main(["run", scene(SCENE + '[output]\ndata = "a.npz"\nsurface = "a.obj"\nfigure = "a.svg"')]) == 0
+    assert files() == ["a.npz", "a.obj", "a.svg"]
+    state = rb.solve(rb.Scene(rb.Ribbon(30.0, 2.0, 0.2), rb.growth.edge(0.06) + rb.growth.chiral(0.04)))
+    vertices = [line.split()[1:] for line in Path("a.obj").read_text().splitlines() if line.startswith("v ")]
+    far = np.max(np.abs(np.array(vertices, dtype=float)))
+    assert far == pytest.approx(2.0 * np.max(np.abs(state.surface(face=1.0))), rel=0.05)
+
+
+def test_files_are_readable_by_others_as_the_umask_says(scene):
+    old = os.umask(0o027)
+    try:
+        assert main(["run", scene(SCENE + '[output]\ndata = "a.npz"\nfigure = "a.png"')]) == 0
+    finally:
+        os.umask(old)
+    assert [Path(name).stat().st_mode & 0o777 for name in files()] == [0o640, 0o640]
+
+
+def test_outputs_replace_older_files(scene):
+    Path("a.npz").write_text("old")
+    assert main(["run", scene(SCENE + '[output]\ndata = "a.npz"')]) == 0
+    assert Path("a.npz").read_bytes()[:2] == b"PK"
+
+
+def test_trace_is_left_to_a_later_version(scene, capsys):
+    trace = '[trace]\nparameter = "growth.edge.amplitude"\nspan = [0, 0.1]'
+    assert main(["run", scene(SCENE + trace)]) == 0
+    assert "[trace] is for a later version" in capsys.readouterr().out
+
+
+def test_large_growth_warns_in_one_line(scene, capsys):
+    assert main(["run", scene(SCENE.replace("0.06", "0.2"))]) == 0
+    assert capsys.readouterr().err == (
+        "ribbonrs: warning: growth.size = 0.2: the theory is for growth small against 1\n"
+    )
+
+
+def test_wrong_input_is_one_line_and_status_2(scene):
+    name = scene(SCENE.replace("0.2", "-0.2") + '[output]\ndata = "a.npz"')
+    done = run_process("run", name)
+    expected = "ribbonrs: ribbon.thickness = -0.2: expected a positive finite number\n"
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", expected)
+    assert files() == []
+
+
+def test_missing_scene_is_one_line_and_status_2(tmp_path):
+    done = run_process("run", "none.toml", cwd=tmp_path)
+    expected = (
+        "ribbonrs: scene file = 'none.toml': expected a readable file, not: No such file or directory\n"
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", expected)
+
+
+@pytest.mark.parametrize("arguments", [[], ["walk"], ["run"], ["run", "a", "b"], ["run", "--fast", "a"]])
+def test_wrong_usage_is_status_2(arguments, capsys):
+    with pytest.raises(SystemExit) as caught:
+        main(arguments)
+    assert caught.value.code == 2
+    assert "usage: ribbonrs" in capsys.readouterr().err
+
+
+def test_no_stable_state_is_status_1(scene, capsys):
+    # The second-order expansion is unbounded below past the onset of bending: no equilibrium is stable.
+    text = SCENE.replace("chiral = 0.04", "") + '[output]\ndata = "a.npz"'
+    assert main(["run", scene('law = "quadratic"' + text)]) == 1
+    screen, errors = capsys.readouterr()
+    assert screen == ""
+    assert errors.startswith("ribbonrs: none of the ")
+    assert errors.count("\n") == 1
+    assert files() == []
+
+
+def test_all_files_or_none(scene, capsys):
+    # The name of the last file is too long to be written, which shows only when it is tried.
+    name = "a" * 300 + ".npz"
+    output = f'[output]\nfigure = "a.png"\nsurface = "a.vtp"\ndata = "{name}"'
+    assert main(["run", scene(SCENE + output)]) == 2
+    assert "output.data" in capsys.readouterr().err
+    assert files() == []
+
+
+def test_interruption_leaves_nothing(scene, capsys, monkeypatch):
+    def interrupt(self, path):
+        Path(path).write_text("half")
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(rb.State, "save", interrupt)
+    assert main(["run", scene(SCENE + '[output]\nfigure = "a.png"\ndata = "a.npz"')]) == 130
+    assert capsys.readouterr().err == "ribbonrs: interrupted\n"
+    assert files() == []
+
+
+def test_a_reader_that_leaves_early_is_no_traceback(scene):
+    command = f"{sys.executable} -m ribbonrs run {scene(SCENE)} | true"
+    done = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
+    assert done.stderr == ""
+
+
+def test_a_screen_that_cannot_be_written_is_one_line(scene):
+    command = f"{sys.executable} -m ribbonrs run {scene(SCENE)} 1< /dev/null"
+    done = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (1, "ribbonrs: standard output: Bad file descriptor\n")
+
+
+def test_any_terminal_can_show_any_file_name(scene):
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    done = run_process("run", scene(SCENE + '[output]\ndata = "fl\\u00f6te.npz"'), env=environment)
+    assert done.returncode == 0
+    assert "wrote fl\\xf6te.npz" in done.stdout
+    assert files() == ["flöte.npz"]

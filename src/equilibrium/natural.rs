@@ -1,7 +1,7 @@
 //! All natural shapes of a uniformly growing ribbon.
 
 use super::Phase;
-use super::reduced::{Coefficients, bound};
+use super::reduced::{Sheets, bound, twists};
 use super::roots::roots;
 use crate::section::{Section, Strain};
 
@@ -70,29 +70,29 @@ struct Point {
 fn search(section: &Section) -> Vec<Point> {
     let symmetric = section.reduction().is_symmetric_in_bending();
     let untwisted = section.reduction().k3 == 0.0;
-    let at = |k: f64| {
-        let coefficients = Coefficients::at(section, k);
-        if symmetric { coefficients.bending_over(k) } else { coefficients }
-    };
+    let at = |k: f64| Sheets::at(section, k, symmetric);
     let mut found = Vec::new();
     if symmetric {
-        for q in Coefficients::at(section, 0.0).twists() {
+        for q in twists(section, 0.0) {
             found.extend(polish(section, Point { k: 0.0, q, resolved: true }));
         }
     }
     for (from, to) in intervals(section, symmetric) {
         if !untwisted {
             for root in roots(|k| at(k).resultant(), from, to) {
-                let starts = Coefficients::at(section, root.x).twists();
+                let starts = twists(section, root.x);
                 found.extend(nearest(section, root.x, &starts, root.simple));
             }
             continue;
         }
-        for root in roots(|k| at(k).untwisted(), from, to) {
+        for root in roots(|k| at(k).untwisted, from, to) {
             found.extend(nearest(section, root.x, &[0.0], root.simple));
         }
-        for root in roots(|k| at(k).twisted(), from, to) {
-            let squared = at(root.x).twist_squared();
+        if !section.relaxation().depends_on_twist() {
+            continue;
+        }
+        for root in roots(|k| at(k).twisted, from, to) {
+            let squared = at(root.x).twist_squared;
             if squared > -RESOLUTION * RESOLUTION {
                 let simple = root.simple && squared > RESOLUTION * RESOLUTION;
                 found.extend(nearest(section, root.x, &[squared.max(0.0).sqrt()], simple));
@@ -170,7 +170,7 @@ impl Balance {
 fn balance(section: &Section, k: f64, q: f64) -> Balance {
     let r = section.reduction();
     let (eta, g) = (section.eta(), r.material.twist);
-    let relaxed = section.relaxation().derivatives(k * eta, q * eta);
+    let relaxed = section.relaxation().derivatives(k * eta, (q * eta) * (q * eta));
     let bend = (k * eta + r.d33) / eta / 12.0;
     let twist = 2.0 * g * (q - r.k3 / eta);
     let relief = 2.0 * q * relaxed.dp;

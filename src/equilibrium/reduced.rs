@@ -1,93 +1,82 @@
 //! Equilibrium of the unloaded section, reduced to one function of one curvature.
 //!
-//! In units of the thickness ratio, `k = K2/eta`, `q = K3/eta`, the energy at fixed `k` is a quartic
-//! in `q`, `Pi/eta^4 = g (q - q0)^2 + c(k) + b(k) q^2 + A(k) q^4/2 + (k + d)^2/24 + const`, so that
+//! In units of the thickness ratio, `k = K2/eta`, `q = K3/eta`, the relaxed energy at fixed `k` is a
+//! quadratic in `p = q^2`, with curvature `A(k) > 0`, and natural twist `q0` costs `g (q - q0)^2`. With
+//! `p0(k)` the place where `dPi/dp = 0` without natural twist, the two equations are
 //!
 //! ```text
-//! torsion:  A q^3 + (b + g) q - g q0 = 0,
-//! bending:  (k + d)/12 + c' + b' q^2 + A' q^4/2 = 0.
+//! torsion:  A q (q^2 - p0) = g q0,
+//! bending:  F + B (p - p0) + G (p - p0)^2 = 0,      F = dPi/dk at p0,  B = d^2 Pi/(dk dp),  G = A'/2.
 //! ```
 //!
-//! An equilibrium is a common root in `q`. Its `k` is a root of the resultant of the two polynomials,
-//! one analytic function of `k`, on which all sheets of the cubic meet without folds. Without natural
-//! twist (`q0 = 0`) the resultant has a double factor and the two sheets `q = 0` and
-//! `q^2 = -(b + g)/A` are used instead, each analytic by itself. Where `K2 -> -K2` is a symmetry the
-//! bending equation is divided by `k`, which takes out the roots at `k = 0`.
+//! Without natural twist there are two sheets, `q = 0` with the bending equation `F0` and `p = p0` with
+//! `F`. With it, the first equation turns the second into `F q^2 + h B q + h^2 G = 0`, `h = g q0/A`, and
+//! an equilibrium is a common root of a quadratic and the cubic. Its `k` is a root of their resultant,
 //!
-//! `A`, `b`, `c` have poles on the imaginary axis only, none with `|k| < 7.4578` (incompressible
+//! ```text
+//! F^2 F0 + h^2 [B^2 (B - p0 G) - F G (3B - 2 p0 G)] + h^4 G^3      (over h^2),
+//! ```
+//!
+//! one analytic function of `k` in which all sheets of the cubic meet without folds. Where
+//! `K2 -> -K2` is a symmetry the bending equation is divided by `k`, which takes out the roots at `k = 0`.
+//!
+//! The functions have poles on the imaginary axis only, none with `|k| < 7.4578` (incompressible
 //! material: the zeros of `sinh z + sin z`; in proportion to `beta` for others), so Chebyshev series on
 //! intervals no longer than their distance from the axis converge like `5.8^-n` or faster.
 
 use super::cubic;
 use crate::section::Section;
 
-/// The coefficient functions at one `k`.
+/// The bending equation on the sheets of the torsion equation, at one `k`.
 #[derive(Clone, Copy, Debug)]
-pub struct Coefficients {
-    a: f64,
-    a1: f64,
-    b1: f64,
-    /// `b + g`
-    e: f64,
-    /// `(k + d)/12 + c'`
-    c1: f64,
-    /// `g q0`
+pub struct Sheets {
+    /// `F0`: on the sheet `q = 0`.
+    pub untwisted: f64,
+    /// `F`: on the sheet `q^2 = p0`.
+    pub twisted: f64,
+    /// `p0`; no equilibrium on the twisted sheet where it is negative.
+    pub twist_squared: f64,
+    mixed: f64,
+    half_slope: f64,
     h: f64,
 }
 
-impl Coefficients {
-    /// The coefficient functions of the law at `k = K2/eta`.
-    pub fn at(section: &Section, k: f64) -> Self {
-        let reduction = section.reduction();
-        let (eta, g) = (section.eta(), reduction.material.twist);
+impl Sheets {
+    /// The sheets at `k = K2/eta`, with the bending equation divided by `k` if asked.
+    pub fn at(section: &Section, k: f64, over_k: bool) -> Self {
+        let r = section.reduction();
+        let (eta, g) = (section.eta(), r.material.twist);
         let k2 = k * eta;
-        let relaxed = section.relaxation().derivatives(k2, 0.0);
+        let divisor = if over_k { k } else { 1.0 };
+        let bend = (k2 + r.d33) / eta / 12.0;
+        let flat = section.relaxation().derivatives(k2, 0.0);
+        let twist_squared = -(flat.dp + g) / flat.dpp;
+        let sheet = section.relaxation().derivatives(k2, twist_squared * eta * eta);
         Self {
-            a: relaxed.dpp,
-            a1: relaxed.d2pp,
-            b1: relaxed.d2p,
-            e: relaxed.dp + g,
-            c1: (k2 + reduction.d33) / eta / 12.0 + relaxed.d2,
-            h: g * reduction.k3 / eta,
+            untwisted: (bend + flat.d2) / divisor,
+            twisted: (bend + sheet.d2) / divisor,
+            twist_squared,
+            mixed: sheet.d2p / divisor,
+            half_slope: 0.5 * sheet.d2pp / divisor,
+            h: g * (r.k3 / eta) / flat.dpp,
         }
     }
 
-    /// The same with the bending equation divided by `k`.
-    pub fn bending_over(self, k: f64) -> Self {
-        Self { a1: self.a1 / k, b1: self.b1 / k, c1: self.c1 / k, ..self }
-    }
-
-    /// The twists `q` that satisfy the torsion equation at this `k`.
-    pub fn twists(&self) -> Vec<f64> {
-        cubic::real_roots(self.a, self.e, self.h)
-    }
-
-    /// Bending equation on the sheet `q = 0`, an equilibrium in torsion if `q0 = 0`.
-    pub fn untwisted(&self) -> f64 {
-        self.c1
-    }
-
-    /// `A^2` times the bending equation on the sheet `q^2 = -(b + g)/A`.
-    pub fn twisted(&self) -> f64 {
-        let Self { a, a1, b1, e, c1, .. } = *self;
-        0.5 * a1 * e * e - a * b1 * e + a * a * c1
-    }
-
-    /// `q^2` on the twisted sheet; no equilibrium where it is negative.
-    pub fn twist_squared(&self) -> f64 {
-        -self.e / self.a
-    }
-
-    /// Resultant in `q` of the torsion equation and the remainder `alpha q^2 + beta q + gamma` of `2A`
-    /// times the bending equation divided by it.
+    /// The resultant of bending and torsion.
     pub fn resultant(&self) -> f64 {
-        let Self { a, a1, b1, e, c1, h } = *self;
-        let (alpha, beta, gamma) = (2.0 * a * b1 - a1 * e, a1 * h, 2.0 * a * c1);
-        a * a * gamma.powi(3)
-            + a * e * gamma * (beta * beta - 2.0 * alpha * gamma)
-            + a * h * beta * (beta * beta - 3.0 * alpha * gamma)
-            + alpha * alpha * (e * e * gamma + e * h * beta + h * h * alpha)
+        let Self { untwisted: f0, twisted: f, twist_squared: p0, mixed: b, half_slope: g, h } = *self;
+        let h2 = h * h;
+        let first_order = b * b * (b - p0 * g) - f * g * (3.0 * b - 2.0 * p0 * g);
+        f * f * f0 + h2 * (first_order + h2 * g * g * g)
     }
+}
+
+/// The twists `q = K3/eta` that satisfy the torsion equation at `k = K2/eta`.
+pub fn twists(section: &Section, k: f64) -> Vec<f64> {
+    let r = section.reduction();
+    let g = r.material.twist;
+    let flat = section.relaxation().derivatives(k * section.eta(), 0.0);
+    cubic::real_roots(flat.dpp, flat.dp + g, g * r.k3 / section.eta())
 }
 
 /// A bound on `|K2|/eta` of every unloaded equilibrium.

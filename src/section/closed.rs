@@ -34,12 +34,12 @@ impl ClosedForm {
 }
 
 impl Relaxation for ClosedForm {
-    fn energy(&self, k2: f64, k3: f64) -> f64 {
-        let w = self.mismatch.value(k2, k3);
+    fn energy(&self, k2: f64, k3_squared: f64) -> f64 {
+        let w = self.mismatch.value(k2, k3_squared);
         0.125 * sigma::value(self.scale * k2 * k2) * w * w
     }
 
-    fn derivatives(&self, k2: f64, k3: f64) -> Relaxed {
+    fn derivatives(&self, k2: f64, k3_squared: f64) -> Relaxed {
         let sigma = sigma::derivatives(self.scale * k2 * k2);
         // s = sigma/4 as a function of k2 = K2/eta, y = c k2^2.
         let c = self.scale * self.eta * self.eta;
@@ -47,7 +47,7 @@ impl Relaxation for ClosedForm {
         let s = 0.25 * sigma.value;
         let s1 = 0.25 * sigma.first * y1;
         let s2 = 0.25 * (sigma.second * y1 * y1 + sigma.first * 2.0 * c);
-        let w = self.mismatch.value(k2, k3);
+        let w = self.mismatch.value(k2, k3_squared);
         let (w1, w2) = (self.mismatch.slope(k2), self.mismatch.curvature());
         Relaxed {
             energy: 0.5 * s * w * w,

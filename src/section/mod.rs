@@ -177,13 +177,14 @@ impl Section {
     #[must_use]
     pub fn energy(&self, strain: &Strain) -> f64 {
         let u = self.unrelaxed(strain);
-        self.unrelaxed_energy(&u) + self.eta.powi(4) * self.relaxation.energy(strain[2], strain[3])
+        self.unrelaxed_energy(&u)
+            + self.eta.powi(4) * self.relaxation.energy(strain[2], strain[3] * strain[3])
     }
 
     /// `dPi/d(eps, K1, K2, K3)` at the strains.
     #[must_use]
     pub fn gradient(&self, strain: &Strain) -> Vector4<f64> {
-        let relaxed = self.relaxation.derivatives(strain[2], strain[3]);
+        let relaxed = self.relaxation.derivatives(strain[2], strain[3] * strain[3]);
         self.gradient_of(strain, &self.unrelaxed(strain), &relaxed)
     }
 
@@ -193,7 +194,7 @@ impl Section {
         let eta2 = self.eta * self.eta;
         let k3 = strain[3];
         let u = self.unrelaxed(strain);
-        let r = self.relaxation.derivatives(strain[2], k3);
+        let r = self.relaxation.derivatives(strain[2], k3 * k3);
         let stretch_k3 = k3 / 12.0;
         let mut hessian = Matrix4::zeros();
         hessian[(0, 0)] = 1.0;

@@ -35,11 +35,11 @@ impl PublishedSaddle {
 }
 
 impl Relaxation for PublishedSaddle {
-    fn energy(&self, k2: f64, k3: f64) -> f64 {
-        self.derivatives(k2, k3).energy
+    fn energy(&self, k2: f64, k3_squared: f64) -> f64 {
+        self.derivatives(k2, k3_squared).energy
     }
 
-    fn derivatives(&self, k2: f64, _k3: f64) -> Relaxed {
+    fn derivatives(&self, k2: f64, _k3_squared: f64) -> Relaxed {
         let (k, x) = (k2 / self.eta, self.xi / self.eta);
         // y = (9/4) k^2 for the incompressible material.
         let sigma = sigma::derivatives(2.25 * k * k);
@@ -54,5 +54,9 @@ impl Relaxation for PublishedSaddle {
             d22: (s2 * f + 2.0 * s1 * f1 + sigma.value * f2) / 32.0,
             ..Relaxed::default()
         }
+    }
+
+    fn depends_on_twist(&self) -> bool {
+        false
     }
 }

@@ -22,18 +22,24 @@ pub struct Relaxed {
     pub d2pp: f64,
 }
 
-/// The part of the section energy that the deflection `u1` can relieve, at given `K2` and `K3`.
+/// The part of the section energy that the deflection `u1` can relieve, at given `K2` and `K3^2`.
 ///
 /// It is all that distinguishes the laws; stretching, in-plane bending, and the bending and twisting
 /// of the unrelaxed section are the same for each and live in [`super::Section`].
-/// `k2` and `k3` are in units of `1/a`, not divided by `eta`: the differences against the growth are
-/// taken before scaling, so that they are exact where they cancel.
+/// `k2` and `k3_squared` are in units of `1/a`, not divided by `eta`: the differences against the growth
+/// are taken before scaling, so that they are exact where they cancel. `k3_squared` may be negative, as
+/// the search for natural shapes needs.
 pub trait Relaxation: std::fmt::Debug + Send + Sync {
     /// Relaxed energy over `eta^4`.
-    fn energy(&self, k2: f64, k3: f64) -> f64;
+    fn energy(&self, k2: f64, k3_squared: f64) -> f64;
 
     /// Relaxed energy over `eta^4` with derivatives in `K2/eta` and `(K3/eta)^2`.
-    fn derivatives(&self, k2: f64, k3: f64) -> Relaxed;
+    fn derivatives(&self, k2: f64, k3_squared: f64) -> Relaxed;
+
+    /// Whether the relaxed energy depends on `K3` at all.
+    fn depends_on_twist(&self) -> bool {
+        true
+    }
 
     /// `(K2/eta, K3/eta)` of every unloaded equilibrium up to mirror images, for a law simple enough to
     /// know them; `None` leaves them to be searched.
@@ -56,8 +62,8 @@ impl Mismatch {
         Self { nu: reduction.material.nu, delta: reduction.delta, offset: reduction.offset, eta }
     }
 
-    pub fn value(&self, k2: f64, k3: f64) -> f64 {
-        (k3 * k3 + k2 * (self.nu * k2 + self.delta) - self.offset) / (self.eta * self.eta)
+    pub fn value(&self, k2: f64, k3_squared: f64) -> f64 {
+        (k3_squared + k2 * (self.nu * k2 + self.delta) - self.offset) / (self.eta * self.eta)
     }
 
     /// First derivative in `K2/eta`; the second is `2 nu`, that in `(K3/eta)^2` is 1.

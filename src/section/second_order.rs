@@ -37,13 +37,13 @@ impl SecondOrder {
 }
 
 impl Relaxation for SecondOrder {
-    fn energy(&self, k2: f64, k3: f64) -> f64 {
-        self.derivatives(k2, k3).energy
+    fn energy(&self, k2: f64, k3_squared: f64) -> f64 {
+        self.derivatives(k2, k3_squared).energy
     }
 
-    fn derivatives(&self, k2: f64, k3: f64) -> Relaxed {
+    fn derivatives(&self, k2: f64, k3_squared: f64) -> Relaxed {
         // C/eta^2, with dC/dp = 1/2.
-        let c = 0.5 * self.mismatch.value(0.0, k3);
+        let c = 0.5 * self.mismatch.value(0.0, k3_squared);
         let k = k2 / self.eta;
         let a = 1.0 / (181_440.0 * self.beta2);
         let b = self.nu / 360.0;

@@ -27,9 +27,9 @@ def real_array(field: str, value: Any, expected: str) -> Array:
     if raw.dtype.kind not in "iuf":
         raise InputError(field, value, expected)
     array = np.ascontiguousarray(raw, dtype=np.float64).reshape(raw.shape)
-    bad = np.argwhere(~np.isfinite(array))
-    if bad.size:
-        where = tuple(int(i) for i in bad[0])
+    finite = np.isfinite(array)
+    if not finite.all():
+        where = tuple(int(i) for i in np.argwhere(~finite)[0])
         element = f"{field}[{', '.join(map(str, where))}]" if where else field
         raise InputError(element, float(array[where]), expected)
     return array

@@ -32,8 +32,8 @@ def natural_shapes(ribbon: Ribbon, growth: Growth) -> list[State]:
 
     All strains at which :math:`\partial\Pi/\partial\varepsilon = \partial\Pi/\partial K_i = 0`: minima,
     saddles and maxima, mirror images included, of which K2 > 0, then K3 > 0 comes first. Complete up to
-    pairs closer than 1e-6 in K/eta; those found that close have ``resolved = False``, and a `RibbonWarning`
-    says so.
+    pairs closer than 1e-6 in K/eta: a state that stands for several has ``resolved = False``, and a
+    `RibbonWarning` says so.
 
     Raises
     ------
@@ -125,8 +125,7 @@ def equilibria(scene: Scene, n: int = NODES) -> list[State]:
     unresolved = int(np.count_nonzero(~resolved))
     if unresolved:
         warnings.warn(
-            f"{unresolved} of {len(phases)} equilibria lie closer than 1e-6 in K/eta to another: "
-            "their number is not certain",
+            f"{unresolved} of {len(phases)} equilibria stand for several closer than 1e-6 in K/eta",
             RibbonWarning,
             stacklevel=3,
         )
@@ -148,10 +147,13 @@ def equilibria(scene: Scene, n: int = NODES) -> list[State]:
 
 
 def _stable(states: list[State]) -> State:
-    """The first stable state: they come in order of energy, of mirror images K2 > 0, then K3 > 0 first."""
-    for state in states:
-        if state.stable:
-            return state
+    """The first stable state: they come in order of energy, of mirror images K2 > 0, then K3 > 0 first.
+
+    Just past a bifurcation the stable states may be merged with the unstable one between them.
+    """
+    for group in ([s for s in states if s.stable], [s for s in states if not s.resolved]):
+        if group:
+            return group[0]
     # The full law always has a minimum; the energy of its expansion may be unbounded below.
     raise ConvergenceError(
         f"none of the {len(states)} equilibria is stable",

@@ -34,7 +34,7 @@ class Report:
     equilibria: int
     """Number of unloaded equilibria found."""
     unresolved: int
-    """How many of them lie closer than 1e-6 in K/eta to another, so that their number is not certain."""
+    """How many of them stand for several closer than 1e-6 in K/eta."""
     gradient_norm: float
     """Norm of (n3, m1, m2, m3) at the state, evaluated anew: zero but for rounding."""
 
@@ -102,9 +102,10 @@ class State:
     section_index : int
         Number of negative eigenvalues of the 4x4 Hessian of Pi.
     phase : str
-        "flat", "bent", "twisted", "helical", or "curved" where K1 is not zero.
+        "flat", "bent", "twisted" or "helical": whether K2 and K3 exceed 1e-6 thickness/width. K1 does not
+        change the name.
     resolved : bool
-        False if another equilibrium lies closer than 1e-6 in K/eta.
+        False if this stands for several equilibria closer than 1e-6 in K/eta.
     report : Report
         How it was found.
     S : (n,) array

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.polynomial.polynomial import polyval
 from numpy.typing import ArrayLike
 
-from .arrays import Array, count
+from .arrays import Array, count, real_array
 from .check import number
 from .errors import InputError
 
@@ -28,6 +28,9 @@ if TYPE_CHECKING:
     from .state import State
 
 __all__ = ["layer", "section_points", "surface"]
+
+
+STATIONS = "finite numbers of shape (n,)"
 
 
 def surface(state: State, nx: int = 41, face: float = 0.0, S: ArrayLike | None = None) -> Array:
@@ -41,7 +44,10 @@ def surface(state: State, nx: int = 41, face: float = 0.0, S: ArrayLike | None =
     level = number("face", face, "a number from -1 to 1")
     if abs(level) > 1.0:
         raise InputError("face", face, "a number from -1 to 1")
-    return layer(state, state.S if S is None else S, x, 0.5 * state.scene.ribbon.thickness_ratio * level)
+    stations = state.S if S is None else real_array("S", S, STATIONS)
+    if stations.ndim != 1:
+        raise InputError("S.shape", stations.shape, STATIONS)
+    return layer(state, stations, x, 0.5 * state.scene.ribbon.thickness_ratio * level)
 
 
 def layer(state: State, S: ArrayLike, x: Array, X1: float) -> Array:

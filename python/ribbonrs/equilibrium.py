@@ -129,6 +129,7 @@ def equilibria(scene: Scene, n: int = NODES) -> list[State]:
             RibbonWarning,
             stacklevel=3,
         )
+    strains += 0.0  # no negative zeros
     residuals = np.linalg.norm(law.gradient(strains), axis=-1)
     strains.setflags(write=False)
     return [

@@ -32,6 +32,9 @@ OUTLINE = 0.012
 # The shape lies on its broadest side and is seen from above and from the side by these angles.
 ELEVATION, SIDE = math.radians(35.0), math.radians(15.0)
 
+# Cosine of an angle that counts as a right one, so that rounding does not turn the picture over.
+SQUARE = 1e-6
+
 # Light from the upper left and front, in the frame of the picture: right, up, towards the viewer.
 LIGHT = np.array([-0.40, 0.62, 0.67])
 DARKEST, GLOSS, SHARPNESS = 0.5, 0.16, 24
@@ -122,18 +125,22 @@ def _camera(points: Array) -> Array:
     """
     cloud = points.reshape(-1, 3) - points.mean(axis=(0, 1))
     _, axes = np.linalg.eigh(cloud.T @ cloud)
-    up, right = axes[:, 0], axes[:, 2]
-    ahead = points[-1].mean(axis=0) - points[0].mean(axis=0)
-    if right @ ahead < 0.0:
-        right = -right
-    if up[0] < 0.0:
-        up = -up
+    up = _along(axes[:, 0], np.array([1.0, 0.0, 0.0]))
+    right = _along(axes[:, 2], points[-1].mean(axis=0) - points[0].mean(axis=0))
     front = math.cos(SIDE) * np.cross(right, up) - math.sin(SIDE) * right
     toward = math.cos(ELEVATION) * front + math.sin(ELEVATION) * up
     # roll the picture so that the long direction is level in it
     level = right - (right @ toward) * toward
     level /= np.linalg.norm(level)
     return np.stack([level, np.cross(toward, level), toward])
+
+
+def _along(axis: Array, hint: Array) -> Array:
+    """`axis` or its opposite, whichever points along `hint` or, square to it, in a positive direction."""
+    lean = axis @ hint
+    if abs(lean) <= SQUARE * np.linalg.norm(hint):
+        lean = axis[np.argmax(np.abs(axis))]
+    return axis if lean >= 0.0 else -axis
 
 
 def _light(normal: Array) -> tuple[Array, Array]:

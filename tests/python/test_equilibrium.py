@@ -303,3 +303,10 @@ def test_arguments_refused(bad):
 def test_growth_too_large():
     with pytest.raises(rb.InputError, match="small growth"):
         rb.natural_shapes(LEAF, rb.growth.edge(0.6))
+
+
+@pytest.mark.parametrize("growth", [edge(6.0), rb.growth.thickness(0.3), chiral(0.2)])
+def test_no_negative_zeros(growth):
+    for state in rb.natural_shapes(LEAF, growth):
+        zeros = state.strain[state.strain == 0.0]
+        assert not np.signbit(zeros).any()

@@ -64,7 +64,9 @@ impl Growth {
         })
     }
 
-    fn fields(&self) -> [(&'static str, &Vec<f64>); 8] {
+    /// All fields with their names.
+    #[must_use]
+    pub fn fields(&self) -> [(&'static str, &Vec<f64>); 8] {
         [
             ("gamma33", &self.gamma33),
             ("d33", &self.d33),

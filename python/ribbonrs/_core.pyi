@@ -7,6 +7,15 @@ import numpy as np
 from numpy.typing import NDArray
 from typing_extensions import TypeAlias
 
+__all__ = [
+    "SectionLaw",
+    "gauss_points",
+    "helix",
+    "integrate_gauss",
+    "integrate_nodal",
+    "integrate_segments",
+]
+
 _Array: TypeAlias = NDArray[np.float64]
 _Poses: TypeAlias = tuple[_Array, _Array]
 
@@ -35,7 +44,10 @@ class SectionLaw:
     ) -> tuple[_Array, _Array, NDArray[np.int64], list[str], NDArray[np.bool_]]: ...
 
 def helix(
-    S: _Array, strain: Sequence[float] | _Array, position: Sequence[float] | _Array, quaternion: Sequence[float] | _Array
+    S: _Array,
+    strain: Sequence[float] | _Array,
+    position: Sequence[float] | _Array,
+    quaternion: Sequence[float] | _Array,
 ) -> _Poses: ...
 def integrate_segments(
     S: _Array, strains: _Array, position: Sequence[float] | _Array, quaternion: Sequence[float] | _Array

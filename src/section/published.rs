@@ -27,10 +27,10 @@ impl PublishedSaddle {
     /// The published law; `None` unless the growth is a thickness gradient of `g33` alone.
     #[must_use]
     pub fn new(growth: &Growth, eta: f64) -> Option<Self> {
-        let xi = growth.d33.first().copied().unwrap_or(0.0);
-        let alone = Growth { d33: growth.d33.clone(), ..Growth::default() };
-        let constant = growth.d33.iter().skip(1).all(|&c| c == 0.0);
-        (constant && *growth == alone).then_some(Self { xi, eta })
+        let zero = |series: &[f64]| series.iter().all(|&c| c == 0.0);
+        let (&xi, rest) = growth.d33.split_first()?;
+        let alone = growth.fields().iter().all(|(name, field)| *name == "d33" || zero(field));
+        (alone && zero(rest)).then_some(Self { xi, eta })
     }
 }
 

@@ -70,9 +70,7 @@ class Ribbon:
         self.d, self.q0 = moment(field["d33"]), moment(twist)
         self.fixed = (moment(field["d33"] ** 2) - self.d**2) / 24 + self.g * (moment(twist**2) - self.q0**2)
         gamma = legendre(field["gamma33"], 40)[2:]
-        natural = (moment(field["d33"] ** 2)) / 24 + Q22 / (24 * E33) * moment(
-            (f - nu * field["d33"]) ** 2 * 4
-        )
+        natural = moment(field["d33"] ** 2) / 24 + Q22 / (24 * E33) * moment(f**2)
         natural += self.g * moment(twist**2)
         # For the bending strain v less growth's own: |v|^2 <= |v| |v_g| + |gamma|^2/4, |v|^2 >= k^2/24.
         self.bound = 1.02 * np.sqrt(24) * (np.sqrt(natural) + np.sqrt(natural + gamma @ gamma)) / 2 + 0.1

@@ -76,7 +76,7 @@ def disagreement(fields: dict[str, list[float]], stiffness: tuple[float, ...], e
     """What the core and the dense search see differently; empty if nothing."""
     found = natural(fields, eta, stiffness)
     ribbon = Ribbon(fields, stiffness)
-    expected = np.array(ribbon.shapes())
+    expected = np.array(ribbon.shapes()).reshape(-1, 2)
 
     def distances(point: Any, points: Any) -> Any:
         return np.abs(points - point).max(axis=1) / max(1.0, np.abs(point).max())

@@ -39,9 +39,9 @@ DPI = 150.0
 def plot(state: State, path: str | PathLike[str] | None = None) -> Figure:
     """Draw the ribbon of `state` in space and its cross-section beside it.
 
-    The mid-surface is seen in parallel projection (equal scale in all directions), coloured by the deflection
-    u1/h and shaded. The profile shows u1/h across the width; the cross-section below it has the true
-    proportions of width, thickness and deflection.
+    The body is seen in parallel projection (equal scale in all directions), coloured by the deflection
+    u1/h and shaded; of a ribbon of more than 20 turns, these are drawn. The profile shows u1/h across the
+    width; the cross-section has the true proportions of width, thickness and deflection.
 
     Parameters
     ----------
@@ -147,11 +147,11 @@ def _round_number(value: float) -> float:
 
 def _draw_profile(axes: Axes, x: Array, deflection: Array, colour: ScalarMappable) -> None:
     points = np.stack([x, deflection], axis=1)
-    segments = np.stack([points[:-1], points[1:]], axis=1)
+    segments = np.stack([points[:-2], points[2:]], axis=1)  # overlapping, without seams
     axes.axhline(0.0, color="0.75", linewidth=0.8)
     axes.plot(x, deflection, color=INK, linewidth=4.0, solid_capstyle="round")
     line = LineCollection(
-        list(segments), array=deflection[:-1], cmap=COLOURS, norm=colour.norm, linewidths=2.6
+        list(segments), array=deflection[1:-1], cmap=COLOURS, norm=colour.norm, linewidths=2.6
     )
     axes.add_collection(line)
     axes.set(xlim=(-0.54, 0.54), ylim=colour.get_clim(), xlabel="$X_2/a$", yticks=[])

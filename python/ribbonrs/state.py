@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
 from typing import TYPE_CHECKING
@@ -122,12 +122,13 @@ class State:
     section_index: int
     phase: str
     resolved: bool
-    report: Report = field(repr=False)
-    S: Array = field(repr=False)
+    report: Report
+    S: Array
 
     def __repr__(self) -> str:
-        eps, K1, K2, K3 = (float(f"{value:.6g}") for value in self.strain)
-        return f"State({self.phase}, {self.stable=}, {eps=}, {K1=}, {K2=}, {K3=})".replace("self.", "")
+        named = zip(("eps", "K1", "K2", "K3"), self.strain, strict=True)
+        strain = ", ".join(f"{name}={value:.6g}" for name, value in named)
+        return f"State({self.phase}, stable={self.stable}, {strain})"
 
     @property
     def stable(self) -> bool:

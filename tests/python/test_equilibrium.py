@@ -186,8 +186,9 @@ def test_the_start_moves_the_state_only():
 def test_a_guess_picks_the_nearest_equilibrium(i):
     scene = rb.Scene(LEAF, edge(6.0))
     states = rb.natural_shapes(LEAF, edge(6.0))
-    near = states[i].strain + np.array([0.5, -0.5, 0.03, -0.03])  # eps and K1 do not count
-    for guess in (states[i], near, list(near)):
+    near = states[i].strain + np.array([100.0, -0.5, 0.03, -0.03])  # eps and K1 do not count
+    far = states[i].strain + np.array([-100.0, 0.5, -0.03, 0.03])
+    for guess in (states[i], near, list(near), far):
         found = rb.solve(scene, guess=guess)
         assert np.array_equal(found.strain, states[i].strain)
         assert found.section_index == states[i].section_index

@@ -1,6 +1,7 @@
 """A state and what follows from it."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -138,6 +139,16 @@ def test_physical_units(state):
     assert physical.helix.radius == state.helix.radius * a
     assert physical.helix.pitch == state.helix.pitch * a
     assert physical.helix.turns == state.helix.turns
+
+
+def test_the_units_of_force_and_moment(state):
+    """This version's states are free of both, so they are put in."""
+    loaded = replace(state)
+    ones = np.ones((31, 3))
+    loaded.__dict__["_nodes"] = replace(state.at(state.S), force=ones, moment=ones)
+    unit = 2e6 * 0.15 * 1.5  # Y h a
+    assert loaded.physical.force == pytest.approx(unit * ones, rel=1e-15)
+    assert loaded.physical.moment == pytest.approx(1.5 * unit * ones, rel=1e-15)
 
 
 def test_a_larger_ribbon_is_the_same_state():

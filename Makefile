@@ -36,9 +36,9 @@ test: develop
 	cargo test --release
 	$(BIN)/python -m pytest
 
+# All Rust steps here share one set of checked dependencies, that with the python feature.
 lint: develop
 	cargo fmt --check
-	cargo clippy --all-targets -- -D warnings
 	cargo clippy --all-targets --features python -- -D warnings
 	RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --features python
 	$(BIN)/ruff check

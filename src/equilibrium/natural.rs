@@ -52,8 +52,11 @@ pub fn natural_shapes(section: &Section) -> Vec<Equilibrium> {
     merge(&mut found);
     let mut shapes: Vec<Equilibrium> = found.iter().map(|point| equilibrium(section, point)).collect();
     shapes.sort_by(|a, b| {
-        let bending = b.strain[2].total_cmp(&a.strain[2]);
-        a.energy.total_cmp(&b.energy).then(bending).then(b.strain[3].total_cmp(&a.strain[3]))
+        // Energies just past a bifurcation agree to the last digit: then the stable shape first.
+        let tie = || a.section_index.cmp(&b.section_index);
+        let bending = || b.strain[2].total_cmp(&a.strain[2]);
+        let twist = || b.strain[3].total_cmp(&a.strain[3]);
+        a.energy.total_cmp(&b.energy).then_with(tie).then_with(bending).then_with(twist)
     });
     shapes
 }

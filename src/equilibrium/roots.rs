@@ -23,6 +23,9 @@ pub struct Root {
     pub simple: bool,
 }
 
+/// How often the function is sampled anew on a smaller interval before its values count as lost.
+const DEEPEST: usize = 14;
+
 /// All roots of `f` in `[a, b]`.
 pub fn roots(f: impl Fn(f64) -> f64, a: f64, b: f64) -> Vec<Root> {
     let mut found = Vec::new();
@@ -30,34 +33,61 @@ pub fn roots(f: impl Fn(f64) -> f64, a: f64, b: f64) -> Vec<Root> {
     found
 }
 
-/// Splits `[a, b]` until the interpolant resolves `f`, then isolates the interpolant's roots.
+/// Samples `f` on `[a, b]` and isolates the roots of its interpolant, bisecting first if needed.
+///
+/// The coefficients of an analytic function fall until they reach the rounding errors of its values and
+/// stay there: that floor is the noise below which signs mean nothing.
 fn resolve(f: &impl Fn(f64) -> f64, a: f64, b: f64, depth: usize, found: &mut Vec<Root>) {
     let values = points().map(|t| f(0.5 * (a + b) + 0.5 * (b - a) * t));
     let series = interpolate(&values);
-    let size = series.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-    let tail = series[POINTS - 3..].iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-    if tail > 1e-13 * size && depth < 12 {
+    let largest = |c: &[f64]| c.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+    let size = largest(&series);
+    let (before, tail) = (largest(&series[POINTS - 9..POINTS - 6]), largest(&series[POINTS - 3..]));
+    let resolved = tail <= 1e-14 * size;
+    // Six coefficients further a converging series would have fallen by 5.8^6 = 4e4.
+    let floor = tail >= 1e-2 * before && tail <= 1e-3 * size;
+    if resolved || floor {
+        let noise = 1e-14 * size + 4.0 * if resolved { tail } else { before.max(tail) };
+        isolate(f, &trimmed(&series, 0.1 * noise), (a, b), noise, depth, found);
+    } else if depth < DEEPEST && b - a > narrowest(a) {
         let middle = 0.5 * (a + b);
         resolve(f, a, middle, depth + 1, found);
         resolve(f, middle, b, depth + 1, found);
-        return;
+    } else {
+        found.push(Root { x: 0.5 * (a + b), simple: false });
     }
-    // Rounding of the values and of the transform.
-    let noise = 1e-14 * size + tail;
-    isolate(&trimmed(&series, 0.1 * noise), a, b, noise, found);
 }
 
-/// Roots of a Chebyshev series on `[a, b]` whose values are known to `noise`.
-fn isolate(series: &[f64], a: f64, b: f64, noise: f64, found: &mut Vec<Root>) {
+fn narrowest(x: f64) -> f64 {
+    NARROWEST * x.abs().max(1.0)
+}
+
+/// Roots on `[a, b]` of a function with this Chebyshev series, its values known to `noise`.
+fn isolate(
+    f: &impl Fn(f64) -> f64,
+    series: &[f64],
+    (a, b): (f64, f64),
+    noise: f64,
+    depth: usize,
+    found: &mut Vec<Root>,
+) {
     let rest = |c: &[f64]| c.iter().skip(1).map(|c| c.abs()).sum::<f64>();
     let spread = rest(series);
     if series[0].abs() > spread + noise {
         return;
     }
     let middle = 0.5 * (a + b);
+    if spread <= noise {
+        // Lost in the rounding of larger values elsewhere: smaller ones here may be known better.
+        if depth < DEEPEST && b - a > narrowest(middle) {
+            resolve(f, a, b, depth + 1, found);
+        } else {
+            found.push(Root { x: middle, simple: false });
+        }
+        return;
+    }
     let slope = derivative(series);
-    let monotone = slope[0].abs() > rest(&slope) && spread > noise;
-    if monotone {
+    if slope[0].abs() > rest(&slope) {
         let (left, right) = (clenshaw(series, -1.0), clenshaw(series, 1.0));
         if left.signum() != right.signum() {
             let t = bracketed_newton(series, &slope, left);
@@ -69,7 +99,7 @@ fn isolate(series: &[f64], a: f64, b: f64, noise: f64, found: &mut Vec<Root>) {
         }
         return;
     }
-    if spread <= noise || b - a < NARROWEST * middle.abs().max(1.0) {
+    if b - a < narrowest(middle) {
         found.push(Root { x: middle, simple: false });
         return;
     }
@@ -80,7 +110,7 @@ fn isolate(series: &[f64], a: f64, b: f64, noise: f64, found: &mut Vec<Root>) {
         let values = points().map(|t| clenshaw(series, centre + half * t));
         let piece = trimmed(&interpolate(&values), 0.1 * noise);
         let at = |t: f64| middle + 0.5 * (b - a) * t;
-        isolate(&piece, at(from), at(to), noise, found);
+        isolate(f, &piece, (at(from), at(to)), noise, depth, found);
     }
 }
 

@@ -8,8 +8,8 @@ use crate::legendre;
 /// Displacements of the mid-surface across the width, in units of `a`, as Legendre series in `x`.
 ///
 /// With `D_j = 1/(1 + mu_j k2^2)` the relaxed deflection has in the modes of [`basis`] the components
-/// `eta [k2 mu_j D_j g_j - D_j h_j]`, where `k2 w_j`-free `g` is the mismatch at `K2 = 0` and `h` the
-/// double integral of the natural transverse curvature: neither small nor large `K2` cancels.
+/// `eta D_j [k2 mu_j g_j - h_j]`, where `g` is the mismatch without `K2` and `h` the double integral of
+/// the natural transverse curvature: neither small nor large `K2` cancels.
 /// `u2` and `u3` follow from `e22 = -nu e33` and `e23 = 0`:
 ///
 /// ```text
@@ -79,7 +79,9 @@ fn relaxed_deflection(r: &Reduction, eta: f64, strain: &Strain) -> (Vec<f64>, Ve
     let material = r.material;
     // The curvature series must hold the growth as well as the relaxed part.
     let degree = r.degree().max(r.curvature.len());
-    let level = level(k2, &largest_curvatures(material.beta2, degree));
+    // The energy is stationary in the deflection and takes its errors squared; the deflection itself,
+    // and more so its second derivative, needs the next truncation for the same accuracy.
+    let level = (level(k2, &largest_curvatures(material.beta2, degree)) + 1).min(SIZES.len() - 1);
     let size = SIZES[level];
     let mut u = vec![0.0; 2 * size + 2];
     let mut curvature = vec![0.0; 2 * size];

@@ -43,7 +43,7 @@ def refusal(job):
 def test_example_equals_its_python_objects(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     job = read(EXAMPLES / "helical_leaf.toml")
-    leaf = rb.Ribbon(length=10.0, width=1.0, thickness=0.1)
+    leaf = rb.Ribbon(length=30.0, width=1.0, thickness=0.1)
     growth = rb.growth.edge(0.06) + rb.growth.chiral(0.04)
     assert job.scene == rb.Scene(leaf, growth, start=rb.Clamped(), end=rb.Free())
     assert [(output.field, str(output.path)) for output in job.outputs] == [

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 import ribbonrs as rb
+from ribbonrs import scenefile
 from ribbonrs.scenefile import read
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -52,6 +53,19 @@ def test_example_equals_its_python_objects(tmp_path, monkeypatch):
         ("output.data", "helical_leaf.npz"),
     ]
     assert job.has_trace
+
+
+def test_documented_file_has_every_key_and_is_read(job):
+    text = (EXAMPLES.parent / "docs" / "scene-files.md").read_text()
+    block = text.split("```toml\n")[1].split("```")[0]
+    read = job(block)
+    assert [term.name for term in read.scene.growth.terms] == ["edge", "thickness", "chiral", "vein"]
+    assert len(read.outputs) == 4
+    tables = [
+        name for name in vars(scenefile).values() if isinstance(name, type) and hasattr(name, "model_fields")
+    ]
+    for key in {key for table in tables for key in table.model_fields}:
+        assert key in block
 
 
 @pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)

@@ -1,11 +1,10 @@
 """Numerical core of ribbonrs: arrays in, arrays out. Use the functions and classes of `ribbonrs` instead."""
 
 from collections.abc import Mapping, Sequence
-from typing import final
+from typing import TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
-from typing_extensions import TypeAlias
 
 __all__ = [
     "SectionLaw",

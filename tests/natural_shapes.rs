@@ -1,5 +1,6 @@
 //! Natural shapes: known thresholds and states, all found by the search.
 
+use proptest::prelude::*;
 use ribbonrs::equilibrium::{Equilibrium, Phase, natural_shapes};
 use ribbonrs::growth::Growth;
 use ribbonrs::material::PlaneStress;
@@ -116,4 +117,63 @@ fn a_close_pair_is_reported() {
     let flat = below.iter().find(|s| s.phase == Phase::Flat).unwrap();
     assert!(!flat.resolved);
     assert_eq!(count(&below, Phase::Bent), 2);
+}
+
+/// Sum of `(-1)^index` over all critical points of a function that grows in every direction: 1.
+///
+/// By Morse theory it is the Euler characteristic of the plane of `K2`, `K3`; a search that missed a
+/// single nondegenerate equilibrium would break it.
+fn euler_characteristic(shapes: &[Equilibrium]) -> i32 {
+    shapes.iter().map(|s| if s.section_index % 2 == 0 { 1 } else { -1 }).sum()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(3000))]
+
+    #[test]
+    fn no_equilibrium_is_missed(
+        eta in 1e-3..0.4f64,
+        size in -3.0..3.5f64,
+        gamma33 in prop::collection::vec(-1.0..1.0f64, 3..8),
+        d33 in prop::collection::vec(-1.0..1.0f64, 0..4),
+        d22 in prop::collection::vec(-1.0..1.0f64, 0..4),
+        d23 in prop::collection::vec(-1.0..1.0f64, 0..3),
+        g21 in prop::collection::vec(-1.0..1.0f64, 0..5),
+        g31 in prop::collection::vec(-1.0..1.0f64, 0..3),
+        share in -3.0..0.0f64,
+        orthotropic in any::<bool>(),
+    ) {
+        let membrane = 30.0 * 10f64.powf(size) * eta * eta;
+        let bending = 10f64.powf(0.5 * size + share) * eta;
+        let times = |field: Vec<f64>, factor: f64| field.iter().map(|c| c * factor).collect();
+        let growth = Growth {
+            gamma33: times(gamma33, membrane),
+            d33: times(d33, bending),
+            d22: times(d22, bending),
+            d23: times(d23, bending),
+            g21: times(g21, bending),
+            g31: times(g31, bending),
+            ..Growth::default()
+        };
+        let stiffness = if orthotropic {
+            PlaneStress::new(1.0, 1.7, -0.4, 0.25).unwrap()
+        } else {
+            PlaneStress::incompressible()
+        };
+        let law = Section::new(eta, &growth, &stiffness, Form::Auto).unwrap();
+        let all = natural_shapes(&law);
+        prop_assert!(!all.is_empty());
+        for s in &all {
+            // Residual of the forces and moments, against the stiffness times the size of the strains.
+            let value = law.evaluate(&s.strain);
+            for i in 0..4 {
+                let scale = (2.0 * value.energy * value.hessian[(i, i)].abs()).sqrt();
+                prop_assert!(value.gradient[i].abs() <= 1e-11 * scale + 1e-15 * membrane);
+            }
+        }
+        if all.iter().all(|s| s.resolved) {
+            prop_assert_eq!(euler_characteristic(&all), 1);
+            prop_assert_eq!(all[0].section_index, 0);
+        }
+    }
 }

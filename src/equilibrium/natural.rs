@@ -5,7 +5,7 @@ use super::reduced::{Sheets, bound, twists};
 use super::roots::roots;
 use crate::section::{Section, Strain};
 
-/// Equilibria closer than this in `K/eta` are not told apart.
+/// Equilibria closer than this in `K/eta`, relative beyond 1, are not told apart.
 const RESOLUTION: f64 = 1e-6;
 
 /// Eigenvalues of the scaled Hessian above minus this count as not negative.
@@ -22,8 +22,8 @@ pub struct Equilibrium {
     pub section_index: usize,
     /// Flat, bent, twisted or helical.
     pub phase: Phase,
-    /// False if this stands for several equilibria closer than 1e-6 in `K/eta`, or for a place where
-    /// two such have just met or vanished.
+    /// False if this stands for several equilibria closer than 1e-6 in `K/eta` (relative beyond 1), or
+    /// for a place where two such have just met or vanished.
     pub resolved: bool,
 }
 
@@ -97,8 +97,7 @@ fn search(section: &Section) -> Vec<Point> {
         for root in roots(|k| at(k).twisted, from, to) {
             let squared = at(root.x).twist_squared;
             if squared > -RESOLUTION * RESOLUTION {
-                let simple = root.simple && squared > RESOLUTION * RESOLUTION;
-                found.extend(nearest(section, root.x, &[squared.max(0.0).sqrt()], simple));
+                found.extend(nearest(section, root.x, &[squared.max(0.0).sqrt()], root.simple));
             }
         }
     }
@@ -133,7 +132,7 @@ fn nearest(section: &Section, k: f64, twists: &[f64], simple: bool) -> Vec<Point
     let offsets: &[f64] = if simple { &[0.0] } else { &[0.0, -1e-4, 1e-4] };
     let starts = twists
         .iter()
-        .flat_map(|&q| offsets.iter().map(move |offset| Point { k: k + offset * size, q, resolved: simple }));
+        .flat_map(|&q| offsets.iter().map(move |offset| Point { k: k + offset * size, q, resolved: true }));
     let reach = if simple { 1e-5 } else { 1e-3 } * size;
     let kept: Vec<Point> =
         starts.filter_map(|start| polish(section, start)).filter(|p| (p.k - k).abs() < reach).collect();
@@ -162,12 +161,48 @@ impl Balance {
 
     /// Number of negative eigenvalues.
     fn index(&self) -> usize {
-        let [kk, kq, qq] = self.hessian;
-        let (mean, half) = (0.5 * (kk + qq), 0.5 * (kk - qq));
-        let radius = half.hypot(kq);
-        let tolerance = INDEX_TOLERANCE * (mean.abs() + radius).max(1.0);
-        [mean - radius, mean + radius].iter().filter(|&&e| e < -tolerance).count()
+        let [low, high] = self.eigenvalues();
+        let tolerance = INDEX_TOLERANCE * low.abs().max(high.abs()).max(1.0);
+        usize::from(low < -tolerance) + usize::from(high < -tolerance)
     }
+
+    fn eigenvalues(&self) -> [f64; 2] {
+        let [kk, kq, qq] = self.hessian;
+        let (mean, radius) = (0.5 * (kk + qq), (0.5 * (kk - qq)).hypot(kq));
+        [mean - radius, mean + radius]
+    }
+
+    /// Curvature of the energy along a unit direction.
+    fn along(&self, [k, q]: [f64; 2]) -> f64 {
+        let [kk, kq, qq] = self.hessian;
+        kk * k * k + 2.0 * kq * k * q + qq * q * q
+    }
+}
+
+/// Whether no other equilibrium can be closer than [`RESOLUTION`].
+///
+/// Along the softest direction the energy is `lambda s^2/2 + T s^3/6 + Q s^4/24 + ...`; another
+/// stationary point at `s` needs `|lambda| <= |T| s/2 + |Q| s^2/6`.
+fn is_isolated(section: &Section, point: &Point) -> bool {
+    let here = balance(section, point.k, point.q);
+    let [low, high] = here.eigenvalues();
+    let soft = if low.abs() < high.abs() { low } else { high };
+    let [kk, kq, qq] = here.hessian;
+    // Of the two rows of H - soft, the larger one gives the direction.
+    let (a, b) = if (kk - soft).abs() > (qq - soft).abs() { (-kq, kk - soft) } else { (qq - soft, -kq) };
+    let norm = a.hypot(b);
+    let direction = if norm > 0.0 { [a / norm, b / norm] } else { [1.0, 0.0] };
+    let size = point.k.abs().max(point.q.abs()).max(1.0);
+    let step = 1e-4 * size;
+    let beside = |sign: f64| {
+        let (k, q) = (point.k + sign * step * direction[0], point.q + sign * step * direction[1]);
+        balance(section, k, q).along(direction)
+    };
+    let (before, after) = (beside(-1.0), beside(1.0));
+    let third = (after - before) / (2.0 * step);
+    let fourth = (after - 2.0 * here.along(direction) + before) / (step * step);
+    let s = RESOLUTION * size;
+    soft.abs() > 0.5 * third.abs() * s + fourth.abs() * s * s / 6.0
 }
 
 fn balance(section: &Section, k: f64, q: f64) -> Balance {
@@ -261,6 +296,6 @@ fn equilibrium(section: &Section, point: &Point) -> Equilibrium {
         energy: section.energy(&strain),
         section_index: balance(section, point.k, point.q).index(),
         phase: Phase::of(&strain, eta),
-        resolved: point.resolved,
+        resolved: point.resolved && is_isolated(section, point),
     }
 }

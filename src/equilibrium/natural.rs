@@ -126,7 +126,8 @@ fn intervals(section: &Section, symmetric: bool) -> Vec<(f64, f64)> {
 /// Polishes the starts `(k, q)` and keeps what stays near `k`.
 ///
 /// A cluster is tried from both its sides as well, to separate a close pair. If nothing stays, the start
-/// nearest to equilibrium is kept as unresolved where its imbalance is lost in rounding.
+/// nearest to equilibrium is kept as unresolved: after a change of sign always, at a cluster where its
+/// imbalance is lost in rounding.
 fn nearest(section: &Section, k: f64, twists: &[f64], simple: bool) -> Vec<Point> {
     let size = k.abs().max(1.0);
     let offsets: &[f64] = if simple { &[0.0] } else { &[0.0, -1e-4, 1e-4] };
@@ -141,7 +142,10 @@ fn nearest(section: &Section, k: f64, twists: &[f64], simple: bool) -> Vec<Point
     }
     let imbalance = |q: f64| balance(section, k, q).relative_size();
     let best = twists.iter().copied().min_by(|p, q| imbalance(*p).total_cmp(&imbalance(*q)));
-    best.filter(|&q| imbalance(q) < 1e-11).map(|q| Point { k, q, resolved: false }).into_iter().collect()
+    best.filter(|&q| simple || imbalance(q) < 1e-11)
+        .map(|q| Point { k, q, resolved: false })
+        .into_iter()
+        .collect()
 }
 
 /// Gradient and Hessian of `Pi/eta^4` in `k`, `q` with `eps` and `K1` eliminated.

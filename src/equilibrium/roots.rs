@@ -77,7 +77,10 @@ fn isolate(
         return;
     }
     let middle = 0.5 * (a + b);
-    if spread <= noise {
+    let slope = derivative(series);
+    let monotone = slope[0].abs() > rest(&slope);
+    let (left, right) = (clenshaw(series, -1.0), clenshaw(series, 1.0));
+    if spread <= noise || (monotone && left.abs().min(right.abs()) <= noise) {
         // Lost in the rounding of larger values elsewhere: smaller ones here may be known better.
         if depth < DEEPEST && b - a > narrowest(middle) {
             resolve(f, a, b, depth + 1, found);
@@ -86,16 +89,10 @@ fn isolate(
         }
         return;
     }
-    let slope = derivative(series);
-    if slope[0].abs() > rest(&slope) {
-        let (left, right) = (clenshaw(series, -1.0), clenshaw(series, 1.0));
+    if monotone {
         if left.signum() != right.signum() {
             let t = bracketed_newton(series, &slope, left);
             found.push(Root { x: middle + 0.5 * (b - a) * t, simple: true });
-        } else if left.abs().min(right.abs()) <= noise {
-            // A root may sit on the border, lost in rounding on either side.
-            let x = if left.abs() < right.abs() { a } else { b };
-            found.push(Root { x, simple: false });
         }
         return;
     }

@@ -3,7 +3,7 @@
 use super::Phase;
 use super::reduced::{Sheets, bound, twists};
 use super::roots::roots;
-use crate::section::{Section, Strain};
+use crate::section::{Section, Square, Strain};
 
 /// Equilibria closer than this in `K/eta`, relative beyond 1, are not told apart.
 const RESOLUTION: f64 = 1e-6;
@@ -212,7 +212,7 @@ fn is_isolated(section: &Section, point: &Point) -> bool {
 fn balance(section: &Section, k: f64, q: f64) -> Balance {
     let r = section.reduction();
     let (eta, g) = (section.eta(), r.material.twist);
-    let relaxed = section.relaxation().derivatives(k * eta, (q * eta) * (q * eta));
+    let relaxed = section.relaxation().derivatives(k * eta, Square::of(q * eta));
     let bend = (k * eta + r.d33) / eta / 12.0;
     let twist = 2.0 * g * (q - r.k3 / eta);
     let relief = 2.0 * q * relaxed.dp;

@@ -25,7 +25,7 @@
 //! intervals no longer than their distance from the axis converge like `5.8^-n` or faster.
 
 use super::cubic;
-use crate::section::Section;
+use crate::section::{Section, Square};
 
 /// The bending equation on the sheets of the torsion equation, at one `k`.
 #[derive(Clone, Copy, Debug)]
@@ -49,9 +49,9 @@ impl Sheets {
         let k2 = k * eta;
         let divisor = if over_k { k } else { 1.0 };
         let bend = (k2 + r.d33) / eta / 12.0;
-        let flat = section.relaxation().derivatives(k2, 0.0);
+        let flat = section.relaxation().derivatives(k2, Square::of(0.0));
         let twist_squared = -(flat.dp + g) / flat.dpp;
-        let sheet = section.relaxation().derivatives(k2, twist_squared * eta * eta);
+        let sheet = section.relaxation().derivatives(k2, Square::from_value(twist_squared * eta * eta));
         Self {
             untwisted: (bend + flat.d2) / divisor,
             twisted: (bend + sheet.d2) / divisor,
@@ -75,7 +75,7 @@ impl Sheets {
 pub fn twists(section: &Section, k: f64) -> Vec<f64> {
     let r = section.reduction();
     let g = r.material.twist;
-    let flat = section.relaxation().derivatives(k * section.eta(), 0.0);
+    let flat = section.relaxation().derivatives(k * section.eta(), Square::of(0.0));
     cubic::real_roots(flat.dpp, flat.dp + g, g * r.k3 / section.eta())
 }
 

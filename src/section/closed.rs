@@ -1,6 +1,6 @@
 //! The closed form, for growth whose mismatch is parabolic across the width.
 
-use super::relaxation::{Mismatch, Relaxation, Relaxed};
+use super::relaxation::{Mismatch, Relaxation, Relaxed, Square};
 use super::{Reduction, sigma};
 
 /// Relaxed energy of edge growth, thickness gradients and chirality, in any combination,
@@ -34,12 +34,12 @@ impl ClosedForm {
 }
 
 impl Relaxation for ClosedForm {
-    fn energy(&self, k2: f64, k3_squared: f64) -> f64 {
+    fn energy(&self, k2: f64, k3_squared: Square) -> f64 {
         let w = self.mismatch.value(k2, k3_squared);
         0.125 * sigma::value(self.scale * k2 * k2) * w * w
     }
 
-    fn derivatives(&self, k2: f64, k3_squared: f64) -> Relaxed {
+    fn derivatives(&self, k2: f64, k3_squared: Square) -> Relaxed {
         let sigma = sigma::derivatives(self.scale * k2 * k2);
         // s = sigma/4 as a function of k2 = K2/eta, y = c k2^2.
         let c = self.scale * self.eta * self.eta;

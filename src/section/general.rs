@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use super::Reduction;
 use super::basis::{self, SIZES};
-use super::relaxation::{Mismatch, Relaxation, Relaxed};
+use super::relaxation::{Mismatch, Relaxation, Relaxed, Square};
 
 /// Relaxed energy of any polynomial growth,
 ///
@@ -96,7 +96,7 @@ impl GeneralLaw {
         })
     }
 
-    fn sum_derivatives(&self, groups: &[Group], k2: f64, k3_squared: f64) -> Relaxed {
+    fn sum_derivatives(&self, groups: &[Group], k2: f64, k3_squared: Square) -> Relaxed {
         let big_w = self.mismatch.value(k2, k3_squared);
         let (slope, curvature) = (self.mismatch.slope(k2), self.mismatch.curvature());
         let k = k2 / self.eta;
@@ -161,7 +161,7 @@ fn modal_growth(r: &Reduction, level: usize, parity: usize, eta: f64) -> Vec<Gro
 
 impl Relaxation for GeneralLaw {
     #[expect(clippy::needless_range_loop, reason = "one index over all lanes is what vectorises")]
-    fn energy(&self, k2: f64, k3_squared: f64) -> f64 {
+    fn energy(&self, k2: f64, k3_squared: Square) -> f64 {
         let big_w = self.mismatch.value(k2, k3_squared);
         let k = k2 / self.eta;
         let kk = k * k;
@@ -175,7 +175,7 @@ impl Relaxation for GeneralLaw {
         0.5 * energy.iter().sum::<f64>()
     }
 
-    fn derivatives(&self, k2: f64, k3_squared: f64) -> Relaxed {
+    fn derivatives(&self, k2: f64, k3_squared: Square) -> Relaxed {
         self.sum_derivatives(self.groups(k2), k2, k3_squared)
     }
 }
@@ -202,8 +202,8 @@ mod tests {
                     if k2 < 0.0 {
                         continue;
                     }
-                    let a = law.sum_derivatives(law.groups_at(level), k2, 0.09 * k2 * k2);
-                    let b = law.sum_derivatives(law.groups_at(level + 1), k2, 0.09 * k2 * k2);
+                    let a = law.sum_derivatives(law.groups_at(level), k2, Square::of(0.3 * k2));
+                    let b = law.sum_derivatives(law.groups_at(level + 1), k2, Square::of(0.3 * k2));
                     // Rounding of sums of up to 256 terms.
                     for (a, b) in [(a.energy, b.energy), (a.d2, b.d2), (a.d22, b.d22), (a.dp, b.dp)] {
                         assert!((a - b).abs() <= 1e-14 * b.abs(), "{degree} {level} {fraction}: {a} {b}");
@@ -224,7 +224,8 @@ mod tests {
             let closed = super::super::ClosedForm::new(&reduction, eta).unwrap();
             for k in [0.0, 1e-12, 1e-3, 1.0, 7.5, 23.9, 24.1, 300.0, 1e4, 1e6] {
                 for k2 in [k * eta, -k * eta] {
-                    let (a, b) = (general.derivatives(k2, 0.16), closed.derivatives(k2, 0.16));
+                    let (a, b) =
+                        (general.derivatives(k2, Square::of(0.4)), closed.derivatives(k2, Square::of(0.4)));
                     for (a, b, scale) in [
                         (a.energy, b.energy, b.energy),
                         (a.d2, b.d2, b.energy.sqrt() * b.d22.abs().sqrt()),

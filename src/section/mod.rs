@@ -34,7 +34,7 @@ pub use deflection::Deflection;
 pub use general::GeneralLaw;
 pub use published::PublishedSaddle;
 pub use reduction::Reduction;
-pub use relaxation::{Relaxation, Relaxed};
+pub use relaxation::{Relaxation, Relaxed, Square};
 pub use second_order::SecondOrder;
 
 use nalgebra::{Matrix4, Vector4};
@@ -178,13 +178,13 @@ impl Section {
     pub fn energy(&self, strain: &Strain) -> f64 {
         let u = self.unrelaxed(strain);
         self.unrelaxed_energy(&u)
-            + self.eta.powi(4) * self.relaxation.energy(strain[2], strain[3] * strain[3])
+            + self.eta.powi(4) * self.relaxation.energy(strain[2], Square::of(strain[3]))
     }
 
     /// `dPi/d(eps, K1, K2, K3)` at the strains.
     #[must_use]
     pub fn gradient(&self, strain: &Strain) -> Vector4<f64> {
-        let relaxed = self.relaxation.derivatives(strain[2], strain[3] * strain[3]);
+        let relaxed = self.relaxation.derivatives(strain[2], Square::of(strain[3]));
         self.gradient_of(strain, &self.unrelaxed(strain), &relaxed)
     }
 
@@ -194,7 +194,7 @@ impl Section {
         let eta2 = self.eta * self.eta;
         let k3 = strain[3];
         let u = self.unrelaxed(strain);
-        let r = self.relaxation.derivatives(strain[2], k3 * k3);
+        let r = self.relaxation.derivatives(strain[2], Square::of(k3));
         let stretch_k3 = k3 / 12.0;
         let mut hessian = Matrix4::zeros();
         hessian[(0, 0)] = 1.0;
@@ -234,7 +234,7 @@ impl Section {
     fn unrelaxed(&self, strain: &Strain) -> Unrelaxed {
         let r = &self.reduction;
         Unrelaxed {
-            stretch: (strain[0] - r.eps) + strain[3] * strain[3] / 24.0,
+            stretch: (strain[0] - r.eps_constant) + Square::of(strain[3]).minus(r.eps_spread) / 24.0,
             in_plane: strain[1] - r.k1,
             bend: strain[2] + r.d33,
             twist: strain[3] - r.k3,

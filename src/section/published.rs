@@ -1,6 +1,6 @@
 //! The saddle law as it was published, kept to reproduce the paper's figures.
 
-use super::relaxation::{Relaxation, Relaxed};
+use super::relaxation::{Relaxation, Relaxed, Square};
 use super::sigma;
 use crate::growth::Growth;
 
@@ -35,11 +35,11 @@ impl PublishedSaddle {
 }
 
 impl Relaxation for PublishedSaddle {
-    fn energy(&self, k2: f64, k3_squared: f64) -> f64 {
+    fn energy(&self, k2: f64, k3_squared: Square) -> f64 {
         self.derivatives(k2, k3_squared).energy
     }
 
-    fn derivatives(&self, k2: f64, _k3_squared: f64) -> Relaxed {
+    fn derivatives(&self, k2: f64, _k3_squared: Square) -> Relaxed {
         let (k, x) = (k2 / self.eta, self.xi / self.eta);
         // y = (9/4) k^2 for the incompressible material.
         let sigma = sigma::derivatives(2.25 * k * k);

@@ -22,6 +22,10 @@ pub struct Reduction {
     pub material: SectionConstants,
     /// Mean axial growth: natural `eps` of the untwisted section.
     pub eps: f64,
+    /// The constant part of `gamma33`.
+    pub eps_constant: f64,
+    /// 24 times the mean of the rest: the section twisted by `K3^2 = eps_spread` has it as natural strain.
+    pub eps_spread: f64,
     /// Natural curvature `12 <x gamma33>` in the plane of the ribbon.
     pub k1: f64,
     /// Mean of `d33`: `-d33` is the natural curvature of bending alone.
@@ -82,6 +86,11 @@ impl Reduction {
         Self {
             material,
             eps: monomial_sum(&growth.gamma33, |k| even(k) / (k + 1.0)),
+            eps_constant: growth.gamma33.first().copied().unwrap_or(0.0),
+            eps_spread: monomial_sum(
+                &growth.gamma33,
+                |k| if k > 0.0 { 24.0 * even(k) / (k + 1.0) } else { 0.0 },
+            ),
             k1: monomial_sum(&growth.gamma33, |k| 6.0 * odd(k) / (k + 2.0)),
             d33: monomial_sum(&growth.d33, |k| even(k) / (k + 1.0)),
             d33_variance: variance(&d33),

@@ -22,19 +22,46 @@ pub struct Relaxed {
     pub d2pp: f64,
 }
 
+/// A square that remembers what rounding took from it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Square {
+    value: f64,
+    error: f64,
+}
+
+impl Square {
+    /// `x^2`, exactly.
+    #[must_use]
+    pub fn of(x: f64) -> Self {
+        let value = x * x;
+        Self { value, error: x.mul_add(x, -value) }
+    }
+
+    /// A square given as such; may be negative, as the search for natural shapes needs.
+    #[must_use]
+    pub fn from_value(value: f64) -> Self {
+        Self { value, error: 0.0 }
+    }
+
+    /// `x^2 - y`: to rounding of the difference, however close the two are.
+    #[must_use]
+    pub fn minus(self, y: f64) -> f64 {
+        (self.value - y) + self.error
+    }
+}
+
 /// The part of the section energy that the deflection `u1` can relieve, at given `K2` and `K3^2`.
 ///
 /// It is all that distinguishes the laws; stretching, in-plane bending, and the bending and twisting
 /// of the unrelaxed section are the same for each and live in [`super::Section`].
-/// `k2` and `k3_squared` are in units of `1/a`, not divided by `eta`: the differences against the growth
-/// are taken before scaling, so that they are exact where they cancel. `k3_squared` may be negative, as
-/// the search for natural shapes needs.
+/// `k2` and `k3` are in units of `1/a`, not divided by `eta`: the differences against the growth
+/// are taken before scaling, so that they are exact where they cancel.
 pub trait Relaxation: std::fmt::Debug + Send + Sync {
     /// Relaxed energy over `eta^4`.
-    fn energy(&self, k2: f64, k3_squared: f64) -> f64;
+    fn energy(&self, k2: f64, k3_squared: Square) -> f64;
 
     /// Relaxed energy over `eta^4` with derivatives in `K2/eta` and `(K3/eta)^2`.
-    fn derivatives(&self, k2: f64, k3_squared: f64) -> Relaxed;
+    fn derivatives(&self, k2: f64, k3_squared: Square) -> Relaxed;
 
     /// Whether the relaxed energy depends on `K3` at all.
     fn depends_on_twist(&self) -> bool {
@@ -62,8 +89,8 @@ impl Mismatch {
         Self { nu: reduction.material.nu, delta: reduction.delta, offset: reduction.offset, eta }
     }
 
-    pub fn value(&self, k2: f64, k3_squared: f64) -> f64 {
-        (k3_squared + k2 * (self.nu * k2 + self.delta) - self.offset) / (self.eta * self.eta)
+    pub fn value(&self, k2: f64, k3_squared: Square) -> f64 {
+        (k3_squared.minus(self.offset) + k2 * (self.nu * k2 + self.delta)) / (self.eta * self.eta)
     }
 
     /// First derivative in `K2/eta`; the second is `2 nu`, that in `(K3/eta)^2` is 1.

@@ -2,7 +2,7 @@
 
 use super::Reduction;
 use super::relaxation::Mismatch;
-use super::relaxation::{Relaxation, Relaxed};
+use super::relaxation::{Relaxation, Relaxed, Square};
 use crate::equilibrium::cubic;
 
 /// Second-order Taylor polynomial in `K2` of the closed form for edge growth and chirality, eq. (59):
@@ -37,11 +37,11 @@ impl SecondOrder {
 }
 
 impl Relaxation for SecondOrder {
-    fn energy(&self, k2: f64, k3_squared: f64) -> f64 {
+    fn energy(&self, k2: f64, k3_squared: Square) -> f64 {
         self.derivatives(k2, k3_squared).energy
     }
 
-    fn derivatives(&self, k2: f64, k3_squared: f64) -> Relaxed {
+    fn derivatives(&self, k2: f64, k3_squared: Square) -> Relaxed {
         // C/eta^2, with dC/dp = 1/2.
         let c = 0.5 * self.mismatch.value(0.0, k3_squared);
         let k = k2 / self.eta;
@@ -64,12 +64,12 @@ impl Relaxation for SecondOrder {
     fn known_equilibria(&self, reduction: &Reduction, eta: f64) -> Option<Vec<(f64, f64)>> {
         let (g, q0) = (reduction.material.twist, reduction.k3 / eta);
         let (a, b) = (1.0 / (181_440.0 * self.beta2), self.nu / 360.0);
-        let flat = self.derivatives(0.0, 0.0);
+        let flat = self.derivatives(0.0, Square::of(0.0));
         let mut found: Vec<(f64, f64)> =
             cubic::real_roots(flat.dpp, flat.dp + g, g * q0).iter().map(|&q| (0.0, q)).collect();
         let root = (b * b + a / 6.0).sqrt();
         for c in [(b - root) / (2.0 * a), (b + root) / (2.0 * a)] {
-            let squared = 2.0 * (c - 0.5 * self.mismatch.value(0.0, 0.0));
+            let squared = 2.0 * (c - 0.5 * self.mismatch.value(0.0, Square::of(0.0)));
             let twists = if squared > 0.0 { vec![squared.sqrt(), -squared.sqrt()] } else { Vec::new() };
             for q in twists {
                 let k_squared = -(c / 360.0 + g * (1.0 - q0 / q)) / (0.5 * b - a * c);

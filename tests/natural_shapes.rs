@@ -177,3 +177,24 @@ proptest! {
         }
     }
 }
+
+/// Growth so small that its squares vanish in doubles still has its one natural shape.
+#[test]
+fn vanishing_growth_has_one_shape() {
+    for size in [1e-300, 1e-243, 1e-160, 1e-100, 1e-20, 1e-9] {
+        let growth = Growth {
+            gamma33: vec![0.0, size, size, size],
+            d33: vec![size],
+            d23: vec![-size],
+            g21: vec![size, size],
+            ..Growth::default()
+        };
+        for growth in [growth.clone(), Growth { d23: vec![], ..growth.clone() }, Growth::thickness(size, 0.0)]
+        {
+            let law = Section::new(ETA, &growth, &PlaneStress::incompressible(), Form::Auto).unwrap();
+            let all = natural_shapes(&law);
+            assert_eq!((all.len(), all[0].section_index), (1, 0), "{size}");
+            assert!(all[0].resolved && all[0].strain[2].abs() <= 2.0 * size);
+        }
+    }
+}

@@ -74,13 +74,18 @@ fn search(section: &Section) -> Vec<Point> {
     let symmetric = section.reduction().is_symmetric_in_bending();
     let untwisted = section.reduction().k3 == 0.0;
     let at = |k: f64| Sheets::at(section, k, symmetric);
+    let bound = bound(section);
     let mut found = Vec::new();
-    if symmetric {
+    // Strains this small leave the stiffness that of the ungrown section: one equilibrium, near zero.
+    if symmetric || bound < RESOLUTION {
         for q in twists(section, 0.0) {
             found.extend(polish(section, Point { k: 0.0, q, resolved: true }));
         }
     }
-    for (from, to) in intervals(section, symmetric) {
+    if bound < RESOLUTION {
+        return found;
+    }
+    for (from, to) in intervals(section, bound, symmetric) {
         if !untwisted {
             for root in roots(|k| at(k).resultant(), from, to) {
                 let starts = twists(section, root.x);
@@ -106,9 +111,9 @@ fn search(section: &Section) -> Vec<Point> {
 
 /// Intervals of `k` that cover the bound, none longer than its distance from the poles at `+-7.46 i`
 /// and from the imaginary axis beyond.
-fn intervals(section: &Section, symmetric: bool) -> Vec<(f64, f64)> {
+fn intervals(section: &Section, bound: f64, symmetric: bool) -> Vec<(f64, f64)> {
     // The bound is attained by compatible growth; leave room for its rounding.
-    let bound = bound(section) * (1.0 + 1e-9);
+    let bound = bound * (1.0 + 1e-9);
     let first = 4.0 * 3.0 * section.reduction().material.beta2.sqrt();
     let mut intervals = Vec::new();
     let (mut from, mut to) = (0.0, first);

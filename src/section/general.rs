@@ -16,7 +16,7 @@ use super::relaxation::{Mismatch, Relaxation, Relaxed, Square};
 /// the section, each relaxed by its own factor. `W` is the parabolic mismatch of the closed form.
 ///
 /// The number of modes follows from `|K2|/eta` and the degree of the growth, so that the truncation
-/// error stays below rounding (see [`largest_curvatures`]); modes of a parity the growth does not have are left out.
+/// error stays below rounding (see `largest_curvatures`); modes of a parity the growth does not have are left out.
 #[derive(Debug)]
 pub struct GeneralLaw {
     reduction: Reduction,
@@ -44,7 +44,7 @@ struct Group {
 /// rounding with `n >~ (|K2|/eta)^(1/4)` of them, and `n` functions of one parity reach degree `2n`
 /// exactly. Thresholds measured against twice as many functions (see the tests).
 #[must_use]
-pub fn largest_curvatures(beta2: f64, degree: usize) -> [f64; SIZES.len()] {
+pub(super) fn largest_curvatures(beta2: f64, degree: usize) -> [f64; SIZES.len()] {
     SIZES.map(|size| {
         let spare = size as f64 - (degree / 2) as f64 + 1.0;
         if spare < LEAST_SPARE {
@@ -57,7 +57,7 @@ pub fn largest_curvatures(beta2: f64, degree: usize) -> [f64; SIZES.len()] {
 
 /// The smallest sufficient truncation, or the largest there is.
 #[must_use]
-pub fn level(k2: f64, largest: &[f64; SIZES.len()]) -> usize {
+pub(super) fn level(k2: f64, largest: &[f64; SIZES.len()]) -> usize {
     let enough = largest.iter().position(|&k| k2.abs() <= k);
     enough.unwrap_or(SIZES.len() - 1)
 }

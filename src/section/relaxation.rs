@@ -43,10 +43,15 @@ impl Square {
         Self { value, error: 0.0 }
     }
 
-    /// `x^2 - y`: to rounding of the difference, however close the two are.
+    /// `x^2 - y + z`, to rounding of the result where `x^2`, `y` and `z` cancel.
+    ///
+    /// Knuth's two-sum keeps what the difference loses, to be added last.
     #[must_use]
-    pub fn minus(self, y: f64) -> f64 {
-        (self.value - y) + self.error
+    pub fn minus_plus(self, y: f64, z: f64) -> f64 {
+        let difference = self.value - y;
+        let back = difference - self.value;
+        let lost = (self.value - (difference - back)) - (y + back);
+        (difference + z) + (lost + self.error)
     }
 }
 
@@ -90,7 +95,7 @@ impl Mismatch {
     }
 
     pub fn value(&self, k2: f64, k3_squared: Square) -> f64 {
-        (k3_squared.minus(self.offset) + k2 * (self.nu * k2 + self.delta)) / (self.eta * self.eta)
+        k3_squared.minus_plus(self.offset, k2 * (self.nu * k2 + self.delta)) / (self.eta * self.eta)
     }
 
     /// First derivative in `K2/eta`; the second is `2 nu`, that in `(K3/eta)^2` is 1.

@@ -61,7 +61,7 @@ def plot(state: State, path: str | PathLike[str] | None = None) -> Figure:
         A suffix that matplotlib does not know.
     """
     picture = render(state)
-    x = np.linspace(-0.5, 0.5, 201)
+    x = np.linspace(-0.5, 0.5, 201, dtype=np.float64)
     deflection = state.section_law.deflection(state.strain, x) / state.scene.ribbon.thickness_ratio
     largest = float(np.max(np.abs(deflection)))
     limit = 1.06 * largest if largest > SMALLEST else 1.0
@@ -158,7 +158,7 @@ def _draw_profile(axes: Axes, x: Array, deflection: Array, colour: ScalarMappabl
 
 
 def _draw_section(axes: Axes, state: State) -> None:
-    x = np.linspace(-0.5, 0.5, 201)
+    x = np.linspace(-0.5, 0.5, 201, dtype=np.float64)
     half = state.scene.ribbon.thickness_ratio / 2
     top, bottom = section_points(state, x, half), section_points(state, x, -half)
     outline = np.concatenate([top, bottom[::-1]])

@@ -40,7 +40,7 @@ def surface(state: State, nx: int = 41, face: float = 0.0, S: ArrayLike | None =
     `face` picks the layer: 0 the mid-surface, +1 and -1 the faces X1 = +h/2 and -h/2, anything between a
     layer inside. See `State.surface`.
     """
-    x = np.linspace(-0.5, 0.5, count("nx", nx, 2))
+    x = np.linspace(-0.5, 0.5, count("nx", nx, 2), dtype=np.float64)
     level = number("face", face, "a number from -1 to 1")
     if abs(level) > 1.0:
         raise InputError("face", face, "a number from -1 to 1")

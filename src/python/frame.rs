@@ -1,4 +1,5 @@
-//! Frame integrators.
+//! Frame integrators. `S` is the arc length, named as in the public interface.
+#![allow(non_snake_case)]
 
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
@@ -11,7 +12,9 @@ use crate::section::Strain;
 
 type Poses<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>);
 
-fn to_arrays<'py>(py: Python<'py>, poses: &[Pose]) -> Poses<'py> {
+/// Positions (n, 3) and quaternions (n, 4) that an integrator finds, without the interpreter's lock.
+fn poses(py: Python<'_>, integrate: impl FnOnce() -> Vec<Pose> + Send) -> Poses<'_> {
+    let poses = py.detach(integrate);
     let position = Array2::from_shape_fn((poses.len(), 3), |(i, c)| poses[i].position[c]);
     let quaternion = Array2::from_shape_fn((poses.len(), 4), |(i, c)| poses[i].quaternion()[c]);
     (position.into_pyarray(py), quaternion.into_pyarray(py))
@@ -26,8 +29,6 @@ fn expect(what: &str, found: usize, expected: usize) -> PyResult<()> {
 
 /// Exact poses at each S for a constant strain, from the pose at S = 0.
 #[pyfunction]
-#[pyo3(name = "helix", signature = (S, strain, position, quaternion))]
-#[allow(non_snake_case)] // the argument is the arc length S of the public interface
 pub fn helix<'py>(
     py: Python<'py>,
     S: PyReadonlyArray1<'py, f64>,
@@ -36,15 +37,11 @@ pub fn helix<'py>(
     quaternion: [f64; 4],
 ) -> Poses<'py> {
     let s = S.as_array().to_vec();
-    let start = Pose::new(position, quaternion);
-    let poses = py.detach(|| frame::helix(&s, &Strain::from(strain), &start));
-    to_arrays(py, &poses)
+    poses(py, move || frame::helix(&s, &Strain::from(strain), &Pose::new(position, quaternion)))
 }
 
 /// Poses at the nodes S for strains (n-1, 4) constant on each segment.
 #[pyfunction]
-#[pyo3(signature = (S, strains, position, quaternion))]
-#[allow(non_snake_case)]
 pub fn integrate_segments<'py>(
     py: Python<'py>,
     S: PyReadonlyArray1<'py, f64>,
@@ -52,18 +49,13 @@ pub fn integrate_segments<'py>(
     position: [f64; 3],
     quaternion: [f64; 4],
 ) -> PyResult<Poses<'py>> {
-    let s = S.as_array().to_vec();
-    let strains = strains_from(&strains)?;
+    let (s, strains) = (S.as_array().to_vec(), strains_from(&strains)?);
     expect("rows of strains", strains.len() + 1, s.len())?;
-    let start = Pose::new(position, quaternion);
-    let poses = py.detach(|| frame::integrate_segments(&s, &strains, &start));
-    Ok(to_arrays(py, &poses))
+    Ok(poses(py, move || frame::integrate_segments(&s, &strains, &Pose::new(position, quaternion))))
 }
 
 /// Poses at the nodes S for nodal strains (n, 4): cubic interpolation, order 4.
 #[pyfunction]
-#[pyo3(signature = (S, strains, position, quaternion))]
-#[allow(non_snake_case)]
 pub fn integrate_nodal<'py>(
     py: Python<'py>,
     S: PyReadonlyArray1<'py, f64>,
@@ -71,18 +63,13 @@ pub fn integrate_nodal<'py>(
     position: [f64; 3],
     quaternion: [f64; 4],
 ) -> PyResult<Poses<'py>> {
-    let s = S.as_array().to_vec();
-    let strains = strains_from(&strains)?;
+    let (s, strains) = (S.as_array().to_vec(), strains_from(&strains)?);
     expect("rows of strains", strains.len(), s.len())?;
-    let start = Pose::new(position, quaternion);
-    let poses = py.detach(|| frame::integrate_nodal(&s, &strains, &start));
-    Ok(to_arrays(py, &poses))
+    Ok(poses(py, move || frame::integrate_nodal(&s, &strains, &Pose::new(position, quaternion))))
 }
 
 /// The (n-1, 3) points at which integrate_gauss needs the strains.
 #[pyfunction]
-#[pyo3(signature = (S))]
-#[allow(non_snake_case)]
 pub fn gauss_points<'py>(py: Python<'py>, S: PyReadonlyArray1<'py, f64>) -> Bound<'py, PyArray2<f64>> {
     let points = frame::gauss_points(&S.as_array().to_vec());
     Array2::from_shape_fn((points.len(), 3), |(i, c)| points[i][c]).into_pyarray(py)
@@ -90,8 +77,6 @@ pub fn gauss_points<'py>(py: Python<'py>, S: PyReadonlyArray1<'py, f64>) -> Boun
 
 /// Poses at the nodes S for strains (n-1, 3, 4) at the Gauss points: order 6.
 #[pyfunction]
-#[pyo3(signature = (S, strains, position, quaternion))]
-#[allow(non_snake_case)]
 pub fn integrate_gauss<'py>(
     py: Python<'py>,
     S: PyReadonlyArray1<'py, f64>,
@@ -107,7 +92,5 @@ pub fn integrate_gauss<'py>(
     expect("strain components", components, 4)?;
     let strain = |i, p| Strain::from_fn(|c, _| array[(i, p, c)]);
     let strains: Vec<[Strain; 3]> = (0..segments).map(|i| std::array::from_fn(|p| strain(i, p))).collect();
-    let start = Pose::new(position, quaternion);
-    let poses = py.detach(|| frame::integrate_gauss(&s, &strains, &start));
-    Ok(to_arrays(py, &poses))
+    Ok(poses(py, move || frame::integrate_gauss(&s, &strains, &Pose::new(position, quaternion))))
 }

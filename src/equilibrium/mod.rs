@@ -5,11 +5,12 @@
 //! `dPi/d eps = dPi/dK1 = 0` give `eps = <gamma33> - K3^2/24` and `K1 = 12 <x gamma33>`; what remains
 //! are two equations in `K2` and `K3`, of which [`natural_shapes`] finds every solution.
 
-pub(crate) mod cubic;
+mod cubic;
 mod natural;
 mod phase;
 mod reduced;
 mod roots;
+mod second_order;
 
 pub use natural::{Equilibrium, natural_shapes};
 pub use phase::{PHASE_TOLERANCE, Phase};

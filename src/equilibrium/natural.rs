@@ -3,7 +3,8 @@
 use super::Phase;
 use super::reduced::{Sheets, bound, twists};
 use super::roots::roots;
-use crate::section::{Section, Square, Strain};
+use super::second_order;
+use crate::section::{Form, Section, Square, Strain};
 
 /// Equilibria closer than this in `K/eta`, relative beyond 1, are not told apart.
 const RESOLUTION: f64 = 1e-6;
@@ -43,10 +44,12 @@ pub struct Equilibrium {
 /// ```
 #[must_use]
 pub fn natural_shapes(section: &Section) -> Vec<Equilibrium> {
-    let known = section.relaxation().known_equilibria(section.reduction(), section.eta());
-    let points = match known {
-        Some(known) => known.iter().map(|&(k, q)| Point { k, q, resolved: true }).collect(),
-        None => search(section),
+    let points = match section.form() {
+        Form::SecondOrder => {
+            let known = second_order::equilibria(section);
+            known.into_iter().map(|(k, q)| Point { k, q, resolved: true }).collect()
+        }
+        _ => search(section),
     };
     let mut found: Vec<Point> = points.iter().flat_map(|point| mirror_images(section, point)).collect();
     merge(&mut found);
@@ -96,7 +99,8 @@ fn search(section: &Section) -> Vec<Point> {
         for root in roots(|k| at(k).untwisted, from, to) {
             found.extend(nearest(section, root.x, &[0.0], root.simple));
         }
-        if !section.relaxation().depends_on_twist() {
+        // The published saddle law does not relax in K3 and has no other sheet.
+        if section.form() == Form::PublishedSaddle {
             continue;
         }
         for root in roots(|k| at(k).twisted, from, to) {

@@ -55,8 +55,4 @@ impl Relaxation for PublishedSaddle {
             ..Relaxed::default()
         }
     }
-
-    fn depends_on_twist(&self) -> bool {
-        false
-    }
 }

@@ -67,17 +67,6 @@ pub trait Relaxation: std::fmt::Debug + Send + Sync {
 
     /// Relaxed energy over `eta^4` with derivatives in `K2/eta` and `(K3/eta)^2`.
     fn derivatives(&self, k2: f64, k3_squared: Square) -> Relaxed;
-
-    /// Whether the relaxed energy depends on `K3` at all.
-    fn depends_on_twist(&self) -> bool {
-        true
-    }
-
-    /// `(K2/eta, K3/eta)` of every unloaded equilibrium up to mirror images, for a law simple enough to
-    /// know them; `None` leaves them to be searched.
-    fn known_equilibria(&self, _reduction: &super::Reduction, _eta: f64) -> Option<Vec<(f64, f64)>> {
-        None
-    }
 }
 
 /// The parabolic mismatch `w = [K3^2 + K2 (nu K2 + delta) - offset]/eta^2` and its `k2`-derivatives.

@@ -3,7 +3,6 @@
 use super::Reduction;
 use super::relaxation::Mismatch;
 use super::relaxation::{Relaxation, Relaxed, Square};
-use crate::equilibrium::cubic;
 
 /// Second-order Taylor polynomial in `K2` of the closed form for edge growth and chirality, eq. (59):
 ///
@@ -57,28 +56,5 @@ impl Relaxation for SecondOrder {
             dpp: 1.0 / 720.0 - 0.5 * a * k * k,
             d2pp: -a * k,
         }
-    }
-
-    /// Either `k2 = 0`, or the coefficient of `k2^2` vanishes: `C` is one of two constants, `p` follows
-    /// from it and `k2^2` from the torsion equation.
-    fn known_equilibria(&self, reduction: &Reduction, eta: f64) -> Option<Vec<(f64, f64)>> {
-        let (g, q0) = (reduction.material.twist, reduction.k3 / eta);
-        let (a, b) = (1.0 / (181_440.0 * self.beta2), self.nu / 360.0);
-        let flat = self.derivatives(0.0, Square::of(0.0));
-        let mut found: Vec<(f64, f64)> =
-            cubic::real_roots(flat.dpp, flat.dp + g, g * q0).iter().map(|&q| (0.0, q)).collect();
-        let root = (b * b + a / 6.0).sqrt();
-        for c in [(b - root) / (2.0 * a), (b + root) / (2.0 * a)] {
-            let squared = 2.0 * (c - 0.5 * self.mismatch.value(0.0, Square::of(0.0)));
-            let twists = if squared > 0.0 { vec![squared.sqrt(), -squared.sqrt()] } else { Vec::new() };
-            for q in twists {
-                let k_squared = -(c / 360.0 + g * (1.0 - q0 / q)) / (0.5 * b - a * c);
-                // Without natural twist the images in q are added with the other mirror images.
-                if k_squared > 0.0 && (q0 != 0.0 || q > 0.0) {
-                    found.push((k_squared.sqrt(), q));
-                }
-            }
-        }
-        Some(found)
     }
 }

@@ -20,7 +20,21 @@ fn shapes(c: &mut Criterion) {
         g21: vec![0.0, 0.02, 0.1],
         ..Growth::default()
     };
+    // The same growth strains in ever thinner ribbons.
+    let strong = Growth {
+        gamma33: vec![0.0, 0.1, 0.4, -0.3, 0.8],
+        d33: vec![0.2, 0.1],
+        d23: vec![0.1],
+        ..Growth::default()
+    };
     let mut group = c.benchmark_group("natural shapes");
+    for eta in [1e-2, 1e-3, 1e-4, 1e-6] {
+        group.bench_function(format!("strong growth in three fields, eta = {eta:e}"), |b| {
+            let law = Section::new(eta, &strong, &PlaneStress::incompressible(), Form::Auto);
+            let law = law.expect("a law for this growth");
+            b.iter(|| natural_shapes(black_box(&law)));
+        });
+    }
     for (name, growth) in [
         ("edge growth, xi = 6 eta^2", edge(6.0)),
         ("edge growth and chirality, xi = 6 eta^2, omega = 0.2", edge(6.0) + chiral(0.2)),

@@ -5,6 +5,7 @@
 //! `dPi/d eps = dPi/dK1 = 0` give `eps = <gamma33> - K3^2/24` and `K1 = 12 <x gamma33>`; what remains
 //! are two equations in `K2` and `K3`, of which [`natural_shapes`] finds every solution.
 
+mod bound;
 mod cubic;
 mod natural;
 mod phase;

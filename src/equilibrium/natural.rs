@@ -1,7 +1,8 @@
 //! All natural shapes of a uniformly growing ribbon.
 
 use super::Phase;
-use super::reduced::{Sheets, bound, twists};
+use super::bound::bound;
+use super::reduced::{Sheets, twists};
 use super::roots::roots;
 use super::second_order;
 use crate::section::{Form, Section, Square, Strain};

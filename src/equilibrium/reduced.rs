@@ -78,22 +78,3 @@ pub fn twists(section: &Section, k: f64) -> Vec<f64> {
     let flat = section.relaxation().derivatives(k * section.eta(), Square::of(0.0));
     cubic::real_roots(flat.dpp, flat.dp + g, g * r.k3 / section.eta())
 }
-
-/// A bound on `|K2|/eta` of every unloaded equilibrium.
-///
-/// Scaling curvatures and deflection together by `1 + delta` leaves the energy stationary, so with `Q`
-/// the bending energy of the deformed section, `Q_g` that of the growth's natural curvatures and
-/// `gamma` the part of `gamma33` beyond `1` and `x`: `Q - (Q Q_g)^(1/2) <= |gamma|^2/4`, and
-/// `Q >= eta^2 K2^2/24`.
-pub fn bound(section: &Section) -> f64 {
-    let r = section.reduction();
-    let eta = section.eta();
-    let norm2 = |series: &[f64]| series.iter().map(|c| c * c).sum::<f64>();
-    let gamma2 = norm2(r.gamma33.get(2..).unwrap_or_default());
-    let natural = (r.d33 * r.d33 + r.d33_variance) / 24.0
-        + 0.5 * r.material.beta2 * norm2(&r.curvature)
-        + r.material.twist * (r.k3 * r.k3 + r.k3_variance);
-    let natural = natural * eta * eta;
-    let root = 0.5 * (natural.sqrt() + (natural + gamma2).sqrt());
-    24f64.sqrt() * root / (eta * eta)
-}

@@ -48,6 +48,8 @@ pub struct Reduction {
     pub curvature: Vec<f64>,
     /// Legendre coefficients of `gamma33`.
     pub gamma33: Vec<f64>,
+    /// Legendre coefficients of `gamma33''`.
+    pub gamma33_curvature: Vec<f64>,
     /// Legendre coefficients of `gamma22`.
     pub gamma22: Vec<f64>,
     /// Legendre coefficients of `gamma23`.
@@ -102,6 +104,9 @@ impl Reduction {
             s,
             curvature,
             gamma33,
+            gamma33_curvature: legendre::from_monomials(&legendre::monomial_derivative(
+                &legendre::monomial_derivative(&growth.gamma33),
+            )),
             gamma22: legendre::from_monomials(&growth.gamma22),
             gamma23: legendre::from_monomials(&growth.gamma23),
         }

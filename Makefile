@@ -13,6 +13,8 @@ RUST_SOURCES := $(shell find src -name '*.rs')
 # pyo3 builds against the environment's interpreter in every step, so that build artefacts are shared.
 export PYO3_PYTHON := $(CURDIR)/$(BIN)/python
 export VIRTUAL_ENV := $(CURDIR)/.venv
+# maturin refuses two active environments.
+unexport CONDA_PREFIX
 
 .PHONY: venv develop demo test lint bench clean
 

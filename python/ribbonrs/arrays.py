@@ -52,9 +52,13 @@ def vector(field: str, value: Any, size: int, expected: str) -> Array:
     return array
 
 
+MOST = 10_000_000
+"""Largest count: of nodes, points or segments that fit in memory."""
+
+
 def count(field: str, value: Any, least: int) -> int:
-    """Return a whole number >= `least` (booleans are not numbers here)."""
+    """Return a whole number from `least` to `MOST` (booleans are not numbers here)."""
     whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
-    if not whole or value < least:
-        raise InputError(field, value, f"a whole number >= {least}")
+    if not whole or not least <= value <= MOST:
+        raise InputError(field, value, f"a whole number from {least} to {MOST}")
     return int(value)

@@ -67,7 +67,12 @@ def _run(path: Path) -> None:
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")
     console = Console(markup=False, highlight=False, emoji=False)
-    console.print(summary(job.scene, state, others))
+    told = summary(job.scene, state, others)
+    # A narrow terminal wraps; cropped numbers would be read wrongly.
+    console.width = max(
+        console.width, console.measure(told, options=console.options.update(width=1000)).maximum
+    )
+    console.print(told)
     if job.has_trace:
         console.print("[trace] is for a later version and was left out.")
     for output in job.outputs:

@@ -21,6 +21,9 @@ Vector: TypeAlias = tuple[float, float, float]
 Quaternion: TypeAlias = tuple[float, float, float, float]
 """A unit quaternion, scalar first, that turns the fixed basis into the directors."""
 
+FARTHEST = 1e8
+"""Farthest position from the origin, in widths: beyond, coordinates no longer resolve a cross-section."""
+
 _UNIT_TOLERANCE = 1e-8  # a quaternion typed with nine digits passes, a wrong one does not
 
 
@@ -41,7 +44,8 @@ class Clamped:
     Raises
     ------
     InputError
-        If a number is not finite, a vector of the wrong length, or a quaternion not of unit norm to 1e-8.
+        If a number is not finite, a vector of the wrong length, a position farther than 1e8 widths, or a
+        quaternion not of unit norm to 1e-8.
     """
 
     position: Vector | None
@@ -52,6 +56,8 @@ class Clamped:
         self, position: Numbers | None = None, rotation: Numbers | None = None, twist_turns: float = 0.0
     ) -> None:
         held = None if position is None else vector("clamped.position", position)
+        if held is not None and max(map(abs, held)) > FARTHEST:
+            raise InputError("clamped.position", position, f"components of at most {FARTHEST:g} widths")
         turned = None if rotation is None else _unit_quaternion("clamped.rotation", rotation)
         object.__setattr__(self, "position", held)
         object.__setattr__(self, "rotation", turned)

@@ -11,6 +11,7 @@ from .check import number
 from .errors import InputError
 from .growth import Growth
 from .material import Isotropic, Material
+from .ribbon import THINNEST
 
 __all__ = ["SectionLaw"]
 
@@ -37,7 +38,7 @@ class SectionLaw:
     Parameters
     ----------
     thickness_ratio : float
-        eta = h/a, in (0, 1).
+        eta = h/a, from 1e-6 to 1.
     growth : Growth
         See `ribbonrs.growth`.
     material : Isotropic, MooneyRivlin or Orthotropic
@@ -69,9 +70,10 @@ class SectionLaw:
     def __init__(
         self, thickness_ratio: float, growth: Growth, material: Material | None = None, law: str = "full"
     ) -> None:
-        eta = number("thickness_ratio", thickness_ratio, "a number in (0, 1)")
-        if not 0.0 < eta < 1.0:
-            raise InputError("thickness_ratio", thickness_ratio, "a number in (0, 1)")
+        expected = f"a number from {THINNEST:g} to 1"
+        eta = number("thickness_ratio", thickness_ratio, expected)
+        if not THINNEST <= eta < 1.0:
+            raise InputError("thickness_ratio", thickness_ratio, expected)
         if not isinstance(growth, Growth):
             raise InputError("growth", growth, "a growth made with ribbonrs.growth")
         material = Isotropic() if material is None else material

@@ -163,7 +163,9 @@ def _draw_section(axes: Axes, state: State) -> None:
     top, bottom = section_points(state, x, half), section_points(state, x, -half)
     outline = np.concatenate([top, bottom[::-1]])
     axes.fill(outline[:, 1], outline[:, 0], facecolor="0.82", edgecolor=INK, linewidth=1.0)
-    axes.set(xlim=(-0.54, 0.54), aspect="equal")
+    low, high = outline[:, 1].min(), outline[:, 1].max()
+    margin = 0.04 * (high - low)
+    axes.set(xlim=(low - margin, high + margin), aspect="equal")
     axes.set_title("cross-section, true proportions", fontsize=9, color=INK)
     axes.axis("off")
 

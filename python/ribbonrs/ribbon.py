@@ -8,11 +8,15 @@ from .check import positive
 from .errors import InputError
 from .material import Isotropic, Material, MooneyRivlin, Orthotropic
 
-__all__ = ["THINNEST", "Ribbon"]
+__all__ = ["LONGEST", "THINNEST", "Ribbon"]
 
 THINNEST = 1e-6
 """The least thickness/width: the section law is accurate up to K2 = 1e6 thickness/width, and growth
 small enough for the theory bends a ribbon to K2 of order one."""
+
+
+LONGEST = 1e8
+"""The greatest length/width: beyond, coordinates along the ribbon no longer resolve a cross-section."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +33,8 @@ class Ribbon:
     Raises
     ------
     InputError
-        If a dimension is not a positive finite number, or the thickness is not less than the width.
+        If a dimension is not a positive finite number, the thickness is not less than the width or less
+        than 1e-6 of it, or the length more than 1e8 widths.
 
     Examples
     --------
@@ -51,6 +56,9 @@ class Ribbon:
         if self.thickness_ratio < THINNEST:
             expected = f"at least {THINNEST:g} times ribbon.width = {self.width}"
             raise InputError("ribbon.thickness", self.thickness, expected)
+        if self.length_ratio > LONGEST:
+            expected = f"at most {LONGEST:g} times ribbon.width = {self.width}"
+            raise InputError("ribbon.length", self.length, expected)
         if not isinstance(self.material, Isotropic | MooneyRivlin | Orthotropic):
             raise InputError("ribbon.material", self.material, "Isotropic, MooneyRivlin or Orthotropic")
 

@@ -68,7 +68,7 @@ class Scene:
         for name in ("force", "moment"):
             if any(getattr(self.end, name)):
                 raise InputError(f"end.{name}", getattr(self.end, name), f"zero: {_SOLVABLE}")
-        if self.law not in LAWS:
+        if not isinstance(self.law, str) or self.law not in LAWS:
             raise InputError("law", self.law, f"one of {', '.join(LAWS)}")
         self._check_growth()
 

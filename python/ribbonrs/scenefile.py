@@ -209,8 +209,8 @@ _MaterialTable = Annotated[_Isotropic | _MooneyRivlin | _Orthotropic, Discrimina
 _EndTable = Annotated[_Clamped | _Free, Discriminator("kind")]
 _KINDS = {
     "material": ("isotropic", "mooney-rivlin", "orthotropic"),
-    "start": ("clamped", "free"),
-    "end": ("clamped", "free"),
+    "start": ("clamped",),
+    "end": ("free",),
 }
 
 
@@ -305,7 +305,8 @@ def _input_error(detail: ErrorDetails) -> InputError:
         expected = f"one of {', '.join(known)}; the nearest is {nearest}"
         return InputError(_path(*loc, key), detail["ctx"]["value"], expected)
     if kind in ("union_tag_invalid", "union_tag_not_found"):
-        expected = f"one of {', '.join(_KINDS[str(table)])}"
+        kinds = _KINDS[str(table)]
+        expected = f"one of {', '.join(kinds)}" if kinds[1:] else f"{kinds[0]}, all that this version solves"
         return InputError(_path(table, "kind"), value.get("kind", MISSING), expected)
     if kind == "missing":
         return InputError(_path(*loc), MISSING, "a value" if rest else "a table")

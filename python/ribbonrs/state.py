@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Physical", "Reactions", "Report", "Sections", "State", "Wrench"]
 
+END = 1e-12
+"""How far beyond its ends, relative to its length, a ribbon may be asked for."""
+
 
 @dataclass(frozen=True)
 class Report:
@@ -188,15 +191,20 @@ class State:
 
     @cached_property
     def _nodes(self) -> Sections:
-        return self.at(self.S)
+        nodes = self.at(self.S)
+        for array in vars(nodes).values():
+            array.setflags(write=False)
+        return nodes
 
     def at(self, S: ArrayLike) -> Sections:
         """Return the state at any S in [0, L], a number or an array: exact."""
         length = self.scene.ribbon.length_ratio
         expected = f"numbers in [0, {length:g}], the length over the width"
         points = real_array("S", S, expected)
-        if np.any((points < 0.0) | (points > length)):
+        # The length over the width is rounded: its end as the user knows it counts as the end.
+        if np.any((points < -END * length) | (points > (1.0 + END) * length)):
             raise InputError("S", S, expected)
+        points = np.clip(points, 0.0, length)
         start = self.scene.start
         origin = np.zeros(3) if start.position is None else np.array(start.position)
         pose = np.array(start.quaternion)

@@ -11,6 +11,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from .growth import Term
 from .helix import Helix
 from .scene import Scene
 from .state import State
@@ -27,7 +28,7 @@ def _scene_table(scene: Scene, state: State) -> Table:
     ribbon = scene.ribbon
     material = ribbon.material
     constants = ", ".join(f"{f.name} = {getattr(material, f.name):g}" for f in fields(material))
-    grown = " + ".join(f"{term.name} {term.amplitude:g}" for term in scene.growth.terms)
+    grown = " + ".join(map(_grown, scene.growth.terms))
     size = scene.growth.size(ribbon.thickness_ratio)
     table = Table.grid(padding=(0, 3))
     table.add_column(style="dim")
@@ -44,6 +45,21 @@ def _scene_table(scene: Scene, state: State) -> Table:
     table.add_row("shape", Text(_described(state), style="bold"))
     table.add_row("stability", _stability(state))
     return table
+
+
+def _grown(term: Term) -> str:
+    """A growth with its fields: the amplitude alone does not tell a cylinder from a saddle."""
+    fields = ", ".join(
+        f"{name} = {_polynomial([term.amplitude * c for c in shape])}" for name, shape in term.shape
+    )
+    return f"{term.name} {term.amplitude:g} ({fields})"
+
+
+def _polynomial(coefficients: list[float]) -> str:
+    """As `0.24 x^2`, with x = X2/a."""
+    powers = ("", " x", *(f" x^{k}" for k in range(2, len(coefficients))))
+    terms = [f"{c:g}{power}" for c, power in zip(coefficients, powers, strict=False) if c != 0.0]
+    return " + ".join(terms).replace("+ -", "- ") or "0"
 
 
 def _described(state: State) -> str:
@@ -101,7 +117,7 @@ def _others_table(others: list[State]) -> Iterator[RenderableType]:
     table.add_column("shape", no_wrap=True)
     for heading in ("eps", "K1", "K2", "K3", "energy"):
         table.add_column(heading, justify="right", no_wrap=True)
-    table.add_column("section_index", no_wrap=True)
+    table.add_column("index", no_wrap=True)
     for state in others:
         handed = state.helix.handedness
         shape = state.phase if handed == "none" else f"{state.phase}, {handed}"

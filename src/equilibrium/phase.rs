@@ -10,11 +10,11 @@ pub const PHASE_TOLERANCE: f64 = 1e-6;
 /// In-plane curvature `K1` does not change the name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
-    /// `K2 = K3 = 0`.
+    /// `K2 = K3 = 0`: in one plane.
     Flat,
     /// `K2` alone.
     Bent,
-    /// `K3` alone: a helicoid.
+    /// `K3` alone: a helicoid, if `K1 = 0`.
     Twisted,
     /// Both: the centreline is a helix.
     Helical,

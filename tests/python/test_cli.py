@@ -198,3 +198,18 @@ def test_any_terminal_can_show_any_file_name(scene):
     assert done.returncode == 0
     assert "wrote fl\\xf6te.npz" in done.stdout
     assert files() == ["flöte.npz"]
+
+
+def test_no_number_is_cropped(scene, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "40")
+    thin = SCENE.replace("thickness = 0.2", "thickness = 2e-5")
+    assert main(["run", scene(thin)]) == 0
+    assert "…" not in capsys.readouterr().out
+
+
+def test_growth_is_told_by_its_fields(scene, capsys):
+    text = SCENE.replace("edge = 0.06", "edge = 0.06\nthickness = {xi = 0.02, transverse = -0.01}")
+    assert main(["run", scene(text)]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "edge 0.06 (gamma33 = 0.24 x^2)" in shown
+    assert "thickness 0.02 (d33 = 0.02, d22 = -0.01)" in shown

@@ -215,3 +215,14 @@ def test_warning_points_at_the_caller():
     with pytest.warns(rb.RibbonWarning) as caught:
         rb.Scene(LEAF, rb.growth.edge(0.2))
     assert caught[0].filename == __file__
+
+
+def test_ribbon_and_clamp_refuse_what_coordinates_cannot_resolve():
+    refuses("ribbon.length", lambda: rb.Ribbon(1.1e8, 1.0, 0.1))
+    refuses("clamped.position", lambda: rb.Clamped(position=(0.0, -1.1e8, 0.0)))
+    rb.Clamped(position=(1e8, 0.0, 0.0))
+
+
+def test_scene_refuses_an_array_of_laws():
+    leaf = rb.Ribbon(10.0, 1.0, 0.1)
+    refuses("law", lambda: rb.Scene(leaf, rb.growth.edge(0.01), law=np.array(["full", "x"])))

@@ -167,3 +167,12 @@ print("matplotlib.pyplot" in sys.modules)
         [sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True
     )
     assert result.stdout.split() == ["False"]
+
+
+def test_a_section_wider_than_the_ribbon_fits_its_axes():
+    growth = rb.growth.edge(0.06) + rb.growth.Profile(gamma22=[0.2])
+    with pytest.warns(rb.RibbonWarning):
+        state = rb.solve(rb.Scene(rb.Ribbon(10.0, 1.0, 0.1), growth))
+    section = next(axes for axes in state.plot().axes if "cross-section" in axes.get_title())
+    low, high = section.get_xlim()
+    assert low < -0.59 < 0.59 < high

@@ -234,3 +234,21 @@ def test_helices_that_degenerate():
     assert tiny.radius == pytest.approx(1e200)
     # rounding left in K3 is no twist
     assert helix_of(np.array([0.0, 0.0, 0.3, 1e-17]), 10.0, 0.1).handedness == "none"
+
+
+def test_the_rounded_end_of_the_ribbon_is_its_end():
+    # 0.3/0.1 is a little less than 3.
+    state = rb.solve(rb.Scene(rb.Ribbon(0.3, 0.1, 0.01), GROWTH))
+    np.testing.assert_array_equal(state.at(3.0).position, state.position[-1])
+    assert state.surface(5, S=[0.0, 3.0]).shape == (2, 5, 3)
+    refuses("S", lambda: state.at(3.0001))
+
+
+def test_arrays_cannot_be_changed(state):
+    for name in ("S", "strain", "strains", "position", "quaternion", "directors", "force", "moment"):
+        with pytest.raises(ValueError, match="read-only"):
+            getattr(state, name)[...] = 7.0
+
+
+def test_too_many_nodes_are_refused():
+    refuses("n", lambda: rb.solve(rb.Scene(LEAF, GROWTH), n=10**12))

@@ -2,6 +2,9 @@
 
 use crate::InvalidInput;
 
+/// Largest ratio of the stiffnesses of bending, twisting and stretching.
+const LARGEST_RATIO: f64 = 1e12;
+
 /// Plane-stress stiffness with the ribbon's axes as material axes,
 ///
 /// ```text
@@ -21,7 +24,8 @@ impl PlaneStress {
     /// The four constants, any common unit.
     ///
     /// # Errors
-    /// If a constant is not finite or the stiffness is not positive definite.
+    /// If a constant is not finite, the stiffness is not positive definite, or `Q22` or `G` differs from the
+    /// Young modulus by more than twelve orders of magnitude.
     pub fn new(q33: f64, q22: f64, q23: f64, g: f64) -> Result<Self, InvalidInput> {
         let definite = q22 > 0.0 && g > 0.0 && q33 > 0.0 && (q23 / q22) * (q23 / q33) < 1.0;
         if !definite || ![q33, q22, q23, g].iter().all(|q| q.is_finite()) {
@@ -32,7 +36,14 @@ impl PlaneStress {
                 "finite constants, positive definite",
             ));
         }
-        Ok(Self { q33, q22, q23, g })
+        let stiffness = Self { q33, q22, q23, g };
+        let c = stiffness.section_constants();
+        if [c.beta2, c.twist].iter().any(|ratio| !(1.0 / LARGEST_RATIO..=LARGEST_RATIO).contains(ratio)) {
+            let value = format!("({q33}, {q22}, {q23}, {g})");
+            let expected = "constants within twelve orders of magnitude of Q33 - Q23^2/Q22";
+            return Err(InvalidInput::new("stiffness (Q33, Q22, Q23, G)", value, expected));
+        }
+        Ok(stiffness)
     }
 
     /// Isotropic material of Poisson ratio `nu`, in units of its Young modulus:
@@ -100,5 +111,6 @@ mod tests {
         assert!(PlaneStress::new(1.0, 1.0, 0.5, 0.0).is_err());
         assert!(PlaneStress::new(f64::NAN, 1.0, 0.5, 1.0).is_err());
         assert!(PlaneStress::isotropic(-1.0).is_err());
+        assert!(PlaneStress::new(1.0, 1.0, 0.5, 1e300).is_err());
     }
 }

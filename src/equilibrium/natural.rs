@@ -10,6 +10,9 @@ use crate::section::{Form, Section, Square, Strain};
 /// Equilibria closer than this in `K/eta`, relative beyond 1, are not told apart.
 const RESOLUTION: f64 = 1e-6;
 
+/// Largest `|K2|/eta` that is searched: far beyond what the section law resolves in doubles.
+const LARGEST_CURVATURE: f64 = 1e12;
+
 /// Eigenvalues of the scaled Hessian above minus this count as not negative.
 const INDEX_TOLERANCE: f64 = 1e-13;
 
@@ -55,6 +58,9 @@ pub fn natural_shapes(section: &Section) -> Vec<Equilibrium> {
     let mut found: Vec<Point> = points.iter().flat_map(|point| mirror_images(section, point)).collect();
     merge(&mut found);
     let mut shapes: Vec<Equilibrium> = found.iter().map(|point| equilibrium(section, point)).collect();
+    if section.form() != Form::SecondOrder {
+        mark_incomplete(section, &mut shapes);
+    }
     shapes.sort_by(|a, b| {
         // Energies just past a bifurcation agree to the last digit: then the stable shape first.
         let tie = || a.section_index.cmp(&b.section_index);
@@ -63,6 +69,24 @@ pub fn natural_shapes(section: &Section) -> Vec<Equilibrium> {
         a.energy.total_cmp(&b.energy).then_with(tie).then_with(bending).then_with(twist)
     });
     shapes
+}
+
+/// Marks the softest shape as unresolved if the count of all cannot be right.
+///
+/// The energy grows in every direction, so the sum of `(-1)^index` over its nondegenerate critical points
+/// is 1, the Euler characteristic of the plane of `K2`, `K3`. Where it is not, a pair has been lost in
+/// rounding beside a nearly degenerate shape. The second-order form is unbounded below and obeys no such rule.
+fn mark_incomplete(section: &Section, shapes: &mut [Equilibrium]) {
+    let even = shapes.iter().filter(|s| s.section_index % 2 == 0).count();
+    if shapes.iter().any(|s| !s.resolved) || 2 * even == shapes.len() + 1 {
+        return;
+    }
+    let eta = section.eta();
+    let softness = |s: &Equilibrium| balance(section, s.strain[2] / eta, s.strain[3] / eta).softness();
+    let softest = shapes.iter_mut().min_by(|a, b| softness(a).total_cmp(&softness(b)));
+    if let Some(shape) = softest {
+        shape.resolved = false;
+    }
 }
 
 /// An equilibrium in scaled curvatures `k = K2/eta`, `q = K3/eta`.
@@ -118,7 +142,7 @@ fn search(section: &Section) -> Vec<Point> {
 /// and from the imaginary axis beyond.
 fn intervals(section: &Section, bound: f64, symmetric: bool) -> Vec<(f64, f64)> {
     // The bound is attained by compatible growth; leave room for its rounding.
-    let bound = bound * (1.0 + 1e-9);
+    let bound = (bound * (1.0 + 1e-9)).min(LARGEST_CURVATURE);
     let first = 4.0 * 3.0 * section.reduction().material.beta2.sqrt();
     let mut intervals = Vec::new();
     let (mut from, mut to) = (0.0, first);
@@ -144,11 +168,14 @@ fn nearest(section: &Section, k: f64, twists: &[f64], simple: bool) -> Vec<Point
     let starts = twists
         .iter()
         .flat_map(|&q| offsets.iter().map(move |offset| Point { k: k + offset * size, q, resolved: true }));
-    let reach = if simple { 1e-5 } else { 1e-3 } * size;
-    let kept: Vec<Point> =
-        starts.filter_map(|start| polish(section, start)).filter(|p| (p.k - k).abs() < reach).collect();
-    if !kept.is_empty() {
-        return kept;
+    let polished: Vec<Point> = starts.filter_map(|start| polish(section, start)).collect();
+    // A change of sign known only to the noise over a small slope may lie further off than most.
+    for reach in if simple { [1e-5, 1e-3] } else { [1e-3, 1e-3] } {
+        let near = polished.iter().copied().filter(|p| (p.k - k).abs() < reach * size);
+        let kept: Vec<Point> = near.collect();
+        if !kept.is_empty() {
+            return kept;
+        }
     }
     let imbalance = |q: f64| balance(section, k, q).relative_size();
     let best = twists.iter().copied().min_by(|p, q| imbalance(*p).total_cmp(&imbalance(*q)));
@@ -176,8 +203,19 @@ impl Balance {
     /// Number of negative eigenvalues.
     fn index(&self) -> usize {
         let [low, high] = self.eigenvalues();
-        let tolerance = INDEX_TOLERANCE * low.abs().max(high.abs()).max(1.0);
+        let tolerance = self.index_tolerance();
         usize::from(low < -tolerance) + usize::from(high < -tolerance)
+    }
+
+    fn index_tolerance(&self) -> f64 {
+        let [low, high] = self.eigenvalues();
+        INDEX_TOLERANCE * low.abs().max(high.abs()).max(1.0)
+    }
+
+    /// The softest direction's stiffness, relative to the stiffest.
+    fn softness(&self) -> f64 {
+        let [low, high] = self.eigenvalues();
+        low.abs().min(high.abs()) / low.abs().max(high.abs()).max(f64::MIN_POSITIVE)
     }
 
     fn eigenvalues(&self) -> [f64; 2] {
@@ -216,7 +254,8 @@ fn is_isolated(section: &Section, point: &Point) -> bool {
     let third = (after - before) / (2.0 * step);
     let fourth = (after - 2.0 * here.along(direction) + before) / (step * step);
     let s = RESOLUTION * size;
-    soft.abs() > 0.5 * third.abs() * s + fourth.abs() * s * s / 6.0
+    // An eigenvalue whose sign the index does not trust belongs to no isolated equilibrium.
+    soft.abs() > here.index_tolerance().max(0.5 * third.abs() * s + fourth.abs() * s * s / 6.0)
 }
 
 fn balance(section: &Section, k: f64, q: f64) -> Balance {

@@ -45,6 +45,10 @@ fn resolve(f: &impl Fn(f64) -> f64, a: f64, b: f64, depth: usize, found: &mut Ve
     let reach = OVERLAP * (b - a);
     let (a, b) = (a - reach, b + reach);
     let values = points().map(|t| f(0.5 * (a + b) + 0.5 * (b - a) * t));
+    if values.iter().any(|v| !v.is_finite()) {
+        found.push(Root { x: 0.5 * (a + b), simple: false });
+        return;
+    }
     let series = interpolate(&values);
     let largest = |c: &[f64]| c.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
     let size = largest(&series);

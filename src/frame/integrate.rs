@@ -19,6 +19,9 @@ pub fn helix(s: &[f64], strain: &Strain, start: &Pose) -> Vec<Pose> {
 }
 
 /// Poses at the nodes `s`, for strains that are constant on each of the `s.len() - 1` segments: exact.
+///
+/// # Panics
+/// If there are fewer strains than segments.
 #[must_use]
 pub fn integrate_segments(s: &[f64], strains: &[Strain], start: &Pose) -> Vec<Pose> {
     march(s, start, |i, ds| Twist::of_strain(&strains[i], ds))
@@ -30,6 +33,9 @@ pub fn integrate_segments(s: &[f64], strains: &[Strain], start: &Pose) -> Vec<Po
 /// and each segment advanced by the fourth-order Magnus exponential at its two Gauss points,
 /// `Omega = (h/2)(x1 + x2) + (sqrt 3/12) h^2 [x1, x2]` (Iserles & Norsett 1999, with the sign of
 /// `g' = g xi`).
+///
+/// # Panics
+/// If there are fewer strains than nodes.
 #[must_use]
 pub fn integrate_nodal(s: &[f64], strains: &[Strain], start: &Pose) -> Vec<Pose> {
     let offset = 0.5 / 3f64.sqrt();
@@ -55,6 +61,9 @@ pub fn gauss_points(s: &[f64]) -> Vec<[f64; 3]> {
 /// Poses at the nodes `s`, for strains at the [`gauss_points`] of each segment: global error of order 6.
 ///
 /// The sixth-order Magnus exponential of Blanes, Casas & Ros (2000), with the sign of `g' = g xi`.
+///
+/// # Panics
+/// If there are fewer strains than segments.
 #[must_use]
 pub fn integrate_gauss(s: &[f64], strains: &[[Strain; 3]], start: &Pose) -> Vec<Pose> {
     march(s, start, |i, ds| {
@@ -77,6 +86,9 @@ pub fn integrate_gauss(s: &[f64], strains: &[[Strain; 3]], start: &Pose) -> Vec<
 /// rounding grows no faster than the orientation's.
 fn march(s: &[f64], start: &Pose, twist: impl Fn(usize, f64) -> Twist) -> Vec<Pose> {
     let mut poses = Vec::with_capacity(s.len());
+    if s.is_empty() {
+        return poses;
+    }
     let mut pose = *start;
     let mut lost = Vector3::zeros();
     poses.push(pose);

@@ -57,6 +57,15 @@ pub struct Modes {
     pub left: Mat<f64>,
 }
 
+impl Modes {
+    /// Component in mode `j` of a Legendre series, of which it takes the degrees of its `parity`.
+    #[must_use]
+    pub fn component(&self, series: &[f64], parity: usize, j: usize) -> f64 {
+        let of_parity = series.iter().skip(2 + parity).step_by(2).enumerate();
+        of_parity.map(|(i, c)| self.right[(i, j)] * c).sum()
+    }
+}
+
 /// Sizes of the truncations in use, functions of each parity.
 pub const SIZES: [usize; 6] = [8, 16, 32, 64, 128, 256];
 

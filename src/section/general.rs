@@ -142,10 +142,6 @@ impl GeneralLaw {
 /// The growth in the modes of one parity.
 fn modal_growth(r: &Reduction, level: usize, parity: usize, eta: f64) -> Vec<Group> {
     let modes = basis::modes(level, parity);
-    let project = |series: &[f64], mode: usize| -> f64 {
-        let of_parity = series.iter().skip(2 + parity).step_by(2).enumerate();
-        of_parity.map(|(i, c)| modes.right[(i, mode)] * c).sum()
-    };
     let mut groups = vec![Group::default(); SIZES[level].div_ceil(LANES)];
     for (mode, sigma) in modes.sigma.iter().enumerate() {
         let (group, lane) = (&mut groups[mode / LANES], mode % LANES);
@@ -153,8 +149,8 @@ fn modal_growth(r: &Reduction, level: usize, parity: usize, eta: f64) -> Vec<Gro
         if parity == 0 {
             group.t[lane] = basis::PARABOLA * modes.right[(0, mode)];
         }
-        group.s[lane] = project(&r.s, mode) / eta;
-        group.gamma[lane] = project(&r.gamma, mode) / (eta * eta);
+        group.s[lane] = modes.component(&r.s, parity, mode) / eta;
+        group.gamma[lane] = modes.component(&r.gamma, parity, mode) / (eta * eta);
     }
     groups
 }

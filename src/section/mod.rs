@@ -8,7 +8,7 @@
 //! b22 = U'' - g21' + d22,                              b23 = K3 + g31'/2 - d23/2,
 //! ```
 //!
-//! over `x` in `[-1/2, 1/2]` with `int U = int x U = 0`; `W/(Y h a)` of the paper's section 2.4 with the
+//! over `x` in `[-1/2, 1/2]`, with `nu`, `beta` and `g` of [`crate::material::SectionConstants`] and `int U = int x U = 0`; `W/(Y h a)` of the paper's section 2.4 with the
 //! thickness gradients kept in the edge conditions. What the deflection cannot change is integrated
 //! once, in [`Reduction`]; what it relieves is a [`Relaxation`], of which each law has its own:
 //!
@@ -84,7 +84,7 @@ impl Form {
 pub struct Evaluation {
     /// `Pi`.
     pub energy: f64,
-    /// `(n3, m1, m2, m3) = dPi/d(eps, K1, K2, K3)`, eq. (61).
+    /// `(n3, m1, m2, m3) = dPi/d(eps, K1, K2, K3)`, eq. (43).
     pub gradient: Vector4<f64>,
     /// The tangent stiffness.
     pub hessian: Matrix4<f64>,

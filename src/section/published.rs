@@ -28,9 +28,9 @@ impl PublishedSaddle {
     #[must_use]
     pub fn new(growth: &Growth, eta: f64) -> Option<Self> {
         let zero = |series: &[f64]| series.iter().all(|&c| c == 0.0);
-        let (&xi, rest) = growth.d33.split_first()?;
+        let xi = growth.d33.first().copied().unwrap_or(0.0);
         let alone = growth.fields().iter().all(|(name, field)| *name == "d33" || zero(field));
-        (alone && zero(rest)).then_some(Self { xi, eta })
+        (alone && zero(growth.d33.get(1..).unwrap_or_default())).then_some(Self { xi, eta })
     }
 }
 

@@ -24,7 +24,7 @@ pub struct Reduction {
     pub eps: f64,
     /// The constant part of `gamma33`.
     pub eps_constant: f64,
-    /// 24 times the mean of the rest: the section twisted by `K3^2 = eps_spread` has it as natural strain.
+    /// 24 times the mean of the rest of `gamma33`: the square of the twist at which `eps_constant` is natural.
     pub eps_spread: f64,
     /// Natural curvature `12 <x gamma33>` in the plane of the ribbon.
     pub k1: f64,

@@ -12,7 +12,7 @@ use super::relaxation::{Relaxation, Relaxed, Square};
 ///
 /// the bending term `eta^2 K2^2/24` being counted with the unrelaxed section. `K2 ~ eta` does not make
 /// the rest small: the next term is of the same size at `K2 = 2.4 eta`, the series diverges beyond
-/// `|K2| = 7.46 eta`, and past the first instability this form is unbounded below.
+/// `|K2| = 7.46 eta` (in the incompressible material; `22.4 beta eta` in others), and past the first instability this form is unbounded below.
 #[derive(Clone, Debug)]
 pub struct SecondOrder {
     mismatch: Mismatch,

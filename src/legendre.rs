@@ -3,10 +3,26 @@
 //! `p_n(x) = sqrt(2n+1) P_n(2x)`, so that `int p_n p_m dx = delta_nm`. A series is the slice of its
 //! coefficients, lowest degree first.
 
-/// `x p_n = a_{n+1} p_{n+1} + a_n p_{n-1}` with `a_n = n / (2 sqrt|4n^2-1|)`, so that `a_0 = 0`.
+use std::sync::OnceLock;
+
+/// Degrees below which the recurrence is tabulated: beyond any series of this crate.
+const TABULATED: usize = 2048;
+
+/// `a_n` in `x p_n = a_{n+1} p_{n+1} + a_n p_{n-1}`, `a_n = n / (2 sqrt|4n^2-1|)`, so that `a_0 = 0`.
 fn multiplication(n: usize) -> f64 {
-    let n = n as f64;
-    n / (2.0 * (4.0 * n * n - 1.0).abs().sqrt())
+    recurrence()[n].0
+}
+
+/// `a_n`, `1/a_n` and `a_n/a_{n+1}`, with which sums over the recurrence need no division.
+fn recurrence() -> &'static [(f64, f64, f64)] {
+    static TABLE: OnceLock<Vec<(f64, f64, f64)>> = OnceLock::new();
+    TABLE.get_or_init(|| {
+        let a = |n: usize| {
+            let n = n as f64;
+            n / (2.0 * (4.0 * n * n - 1.0).abs().sqrt())
+        };
+        (0..TABULATED).map(|n| (a(n), 1.0 / a(n), a(n) / a(n + 1))).collect()
+    })
 }
 
 /// The Legendre series of the polynomial `sum_k c_k x^k` (Horner's rule, stable since all `a_n > 0`).
@@ -37,10 +53,11 @@ pub fn monomial_derivative(coefficients: &[f64]) -> Vec<f64> {
 /// Value of the series at `x`, by Clenshaw's rule on the three-term recurrence.
 #[must_use]
 pub fn evaluate(series: &[f64], x: f64) -> f64 {
+    let table = &recurrence()[..series.len() + 1];
     let (mut next, mut after) = (0.0, 0.0);
-    for n in (0..series.len()).rev() {
-        let a = multiplication(n + 1);
-        let value = series[n] + x / a * next - a / multiplication(n + 2) * after;
+    for (n, c) in series.iter().enumerate().rev() {
+        let (_, inverse, ratio) = table[n + 1];
+        let value = c + x * inverse * next - ratio * after;
         (next, after) = (value, next);
     }
     next
@@ -100,11 +117,11 @@ fn value_slope_sum(n: usize, x: f64) -> (f64, f64, f64) {
     let (mut p, mut below) = (1.0, 0.0);
     let (mut d, mut d_below) = (0.0, 0.0);
     let mut sum = 0.0;
-    for k in 0..n {
+    for pair in recurrence()[..n + 1].windows(2) {
         sum += p * p;
-        let (a, a_next) = (multiplication(k), multiplication(k + 1));
-        let next = (x * p - a * below) / a_next;
-        let d_next = (p + x * d - a * d_below) / a_next;
+        let (a, inverse) = (pair[0].0, pair[1].1);
+        let next = (x * p - a * below) * inverse;
+        let d_next = (p + x * d - a * d_below) * inverse;
         (below, p) = (p, next);
         (d_below, d) = (d, d_next);
     }
@@ -117,9 +134,9 @@ pub fn project(values: &[f64], nodes: &[f64], weights: &[f64], n: usize) -> Vec<
     let mut series = vec![0.0; n];
     for ((&f, &x), &w) in values.iter().zip(nodes).zip(weights) {
         let (mut p, mut below) = (1.0, 0.0);
-        for (k, c) in series.iter_mut().enumerate() {
+        for (c, pair) in series.iter_mut().zip(recurrence().windows(2)) {
             *c += w * f * p;
-            let next = (x * p - multiplication(k) * below) / multiplication(k + 1);
+            let next = (x * p - pair[0].0 * below) * pair[1].1;
             (below, p) = (p, next);
         }
     }

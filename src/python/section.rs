@@ -106,14 +106,17 @@ impl SectionLaw {
         x: PyReadonlyArray1<'py, f64>,
         derivative: usize,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let shape = self.section.deflection(&Strain::from(strain))?;
-        let values: Array1<f64> = match derivative {
-            0 => x.as_array().map(|&x| shape.u1(x)),
-            1 => x.as_array().map(|&x| shape.slope(x)),
-            2 => x.as_array().map(|&x| shape.curvature(x)),
-            _ => return Err(InvalidInput::new("derivative", derivative, "0, 1 or 2").into()),
-        };
-        Ok(values.into_pyarray(py))
+        let x = x.as_array().to_owned();
+        let values = py.detach(|| {
+            let shape = self.section.deflection(&Strain::from(strain))?;
+            Ok(match derivative {
+                0 => x.map(|&x| shape.u1(x)),
+                1 => x.map(|&x| shape.slope(x)),
+                2 => x.map(|&x| shape.curvature(x)),
+                _ => return Err(InvalidInput::new("derivative", derivative, "0, 1 or 2")),
+            })
+        });
+        Ok(values?.into_pyarray(py))
     }
 
     /// u1, u2, u3 (nx, 3) in units of a at x (nx,) for one strain.
@@ -123,14 +126,18 @@ impl SectionLaw {
         strain: [f64; 4],
         x: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let shape = self.section.deflection(&Strain::from(strain))?;
-        let x = x.as_array();
-        let displacement = |(i, c): (usize, usize)| match c {
-            0 => shape.u1(x[i]),
-            1 => shape.u2(x[i]),
-            _ => shape.u3(x[i]),
-        };
-        Ok(Array2::from_shape_fn((x.len(), 3), displacement).into_pyarray(py))
+        let x = x.as_array().to_owned();
+        let displacements = py.detach(|| {
+            let strain = Strain::from(strain);
+            let deflection = self.section.deflection(&strain)?;
+            let in_plane = self.section.in_plane(&strain, &deflection);
+            Ok::<_, InvalidInput>(Array2::from_shape_fn((x.len(), 3), |(i, c)| match c {
+                0 => deflection.u1(x[i]),
+                1 => in_plane.u2(x[i]),
+                _ => in_plane.u3(x[i]),
+            }))
+        });
+        Ok(displacements?.into_pyarray(py))
     }
 
     /// Every unloaded equilibrium, lowest energy first: strains (m, 4), energies (m,), numbers of

@@ -1,41 +1,37 @@
 //! The shape of the cross-section: `u1` and the in-plane displacements.
 
-use super::basis::{self, Modes, SIZES};
+use std::sync::OnceLock;
+
+use super::basis::{self, SIZES};
 use super::general::{largest_curvatures, level};
 use super::{Reduction, Strain};
 use crate::legendre;
 
-/// Displacements of the mid-surface across the width, in units of `a`, as Legendre series in `x`.
+/// Deflection of the section in units of `a`, as Legendre series in `x`.
 ///
 /// With `D_j = 1/(1 + mu_j k2^2)` the relaxed deflection has in the modes of [`basis`] the components
 /// `eta D_j [k2 mu_j g_j - h_j]`, where `g` is the mismatch without `K2` and `h` the double integral of
 /// the natural transverse curvature: neither small nor large `K2` cancels.
-/// `u2` and `u3` follow from `e22 = -nu e33` and `e23 = 0`:
-///
-/// ```text
-/// u2' = -nu m - U'^2/2 + gamma22,     u3' = gamma23 - K3 (U - x U'),     both of zero mean.
-/// ```
 #[derive(Clone, Debug)]
 pub struct Deflection {
+    level: usize,
     u1: Vec<f64>,
     slope: Vec<f64>,
     curvature: Vec<f64>,
-    u2: Vec<f64>,
-    u3: Vec<f64>,
 }
 
 impl Deflection {
     pub(super) fn new(r: &Reduction, eta: f64, strain: &Strain) -> Self {
-        let (u1, curvature) = relaxed_deflection(r, eta, strain);
+        // The curvature series must hold the growth as well as the relaxed part.
+        let largest = largest_curvatures(r.material.beta2, r.degree().max(r.curvature.len()));
+        // The energy is stationary in the deflection and takes its errors squared; the deflection itself,
+        // and more so its second derivative, needs the next truncation for the same accuracy.
+        let level = (level(strain[2] / eta, &largest) + 1).min(SIZES.len() - 1);
+        let (u1, curvature) = relaxed_deflection(r, eta, strain, level);
         let mut slope = legendre::integrate_zero_mean(&curvature);
         // int U' = U(1/2) - U(-1/2): twice the odd part of U at the edge.
         slope[0] = legendre::evaluate(&u1, 0.5) - legendre::evaluate(&u1, -0.5);
-        let u2 = legendre::integrate_zero_mean(&transverse_strain(r, strain, &u1, &slope));
-        let moment_arm = legendre::multiply_by_x(&slope);
-        let shear: Vec<f64> = (0..moment_arm.len().max(u1.len()).max(r.gamma23.len()))
-            .map(|n| at(&r.gamma23, n) - strain[3] * (at(&u1, n) - at(&moment_arm, n)))
-            .collect();
-        Self { u3: legendre::integrate_zero_mean(&shear), u1, slope, curvature, u2 }
+        Self { level, u1, slope, curvature }
     }
 
     /// `u1/a` at `x`.
@@ -54,6 +50,33 @@ impl Deflection {
     #[must_use]
     pub fn curvature(&self, x: f64) -> f64 {
         legendre::evaluate(&self.curvature, x)
+    }
+}
+
+/// Displacements of the mid-surface in its plane, in units of `a`, as Legendre series of zero mean.
+///
+/// They follow from the deflection by `e22 = -nu e33` and `e23 = 0`:
+///
+/// ```text
+/// u2' = -nu m - U'^2/2 + gamma22,     u3' = gamma23 - K3 (U - x U').
+/// ```
+#[derive(Clone, Debug)]
+pub struct InPlane {
+    u2: Vec<f64>,
+    u3: Vec<f64>,
+}
+
+impl InPlane {
+    pub(super) fn new(r: &Reduction, strain: &Strain, deflection: &Deflection) -> Self {
+        let u1 = &deflection.u1;
+        let moment_arm = legendre::multiply_by_x(&deflection.slope);
+        let shear: Vec<f64> = (0..moment_arm.len().max(u1.len()).max(r.gamma23.len()))
+            .map(|n| at(&r.gamma23, n) - strain[3] * (at(u1, n) - at(&moment_arm, n)))
+            .collect();
+        Self {
+            u2: legendre::integrate_zero_mean(&transverse_strain(r, strain, deflection)),
+            u3: legendre::integrate_zero_mean(&shear),
+        }
     }
 
     /// `u2/a` at `x`, of zero mean.
@@ -74,14 +97,9 @@ fn at(series: &[f64], n: usize) -> f64 {
 }
 
 /// Legendre series of `U` and `U''`.
-fn relaxed_deflection(r: &Reduction, eta: f64, strain: &Strain) -> (Vec<f64>, Vec<f64>) {
+fn relaxed_deflection(r: &Reduction, eta: f64, strain: &Strain, level: usize) -> (Vec<f64>, Vec<f64>) {
     let k2 = strain[2] / eta;
     let material = r.material;
-    // The curvature series must hold the growth as well as the relaxed part.
-    let degree = r.degree().max(r.curvature.len());
-    // The energy is stationary in the deflection and takes its errors squared; the deflection itself,
-    // and more so its second derivative, needs the next truncation for the same accuracy.
-    let level = (level(k2, &largest_curvatures(material.beta2, degree)) + 1).min(SIZES.len() - 1);
     let size = SIZES[level];
     let mut u = vec![0.0; 2 * size + 2];
     let mut curvature = vec![0.0; 2 * size];
@@ -93,8 +111,8 @@ fn relaxed_deflection(r: &Reduction, eta: f64, strain: &Strain) -> (Vec<f64>, Ve
         let t = if parity == 0 { basis::PARABOLA } else { 0.0 };
         for (j, sigma) in modes.sigma.iter().enumerate() {
             let first = t * modes.right[(0, j)];
-            let g = along_t * first - in_mode(modes, &r.gamma, parity, j) / (eta * eta);
-            let h = natural * first + in_mode(modes, &r.s, parity, j) / eta;
+            let g = along_t * first - modes.component(&r.gamma, parity, j) / (eta * eta);
+            let h = natural * first + modes.component(&r.s, parity, j) / eta;
             let mu = sigma * sigma / material.beta2;
             let d = 1.0 / (1.0 + mu * k2 * k2);
             let component = eta * d * (k2 * mu * g - h);
@@ -113,21 +131,20 @@ fn relaxed_deflection(r: &Reduction, eta: f64, strain: &Strain) -> (Vec<f64>, Ve
     (u, curvature)
 }
 
-/// Component of a Legendre series in mode `j`.
-fn in_mode(modes: &Modes, series: &[f64], parity: usize, j: usize) -> f64 {
-    let of_parity = series.iter().skip(2 + parity).step_by(2).enumerate();
-    of_parity.map(|(i, c)| modes.right[(i, j)] * c).sum()
+/// Series of `u2' = -nu m - U'^2/2 + gamma22`.
+fn transverse_strain(r: &Reduction, strain: &Strain, deflection: &Deflection) -> Vec<f64> {
+    let Deflection { level, u1, slope, .. } = deflection;
+    let parabola = legendre::from_monomials(&[strain[0], strain[1], 0.5 * strain[3] * strain[3]]);
+    let membrane = |n: usize| at(&parabola, n) - strain[2] * at(u1, n) - at(&r.gamma33, n);
+    let (nodes, weights) = gauss_rule(*level);
+    let squares: Vec<f64> = nodes.iter().map(|&x| legendre::evaluate(slope, x).powi(2)).collect();
+    let squares = legendre::project(&squares, nodes, weights, nodes.len());
+    (0..nodes.len()).map(|n| at(&r.gamma22, n) - r.material.nu * membrane(n) - 0.5 * squares[n]).collect()
 }
 
-/// Series of `u2' = -nu m - U'^2/2 + gamma22`.
-fn transverse_strain(r: &Reduction, strain: &Strain, u1: &[f64], slope: &[f64]) -> Vec<f64> {
-    let mut parabola = legendre::from_monomials(&[strain[0], strain[1], 0.5 * strain[3] * strain[3]]);
-    parabola.resize(u1.len().max(r.gamma33.len()), 0.0);
-    let membrane = |n: usize| at(&parabola, n) - strain[2] * at(u1, n) - at(&r.gamma33, n);
-    // U'^2 has twice the degree of U'; as many Gauss nodes as coefficients integrate it exactly.
-    let terms = (2 * slope.len()).max(parabola.len()).max(r.gamma22.len());
-    let (nodes, weights) = legendre::gauss(terms);
-    let squares: Vec<f64> = nodes.iter().map(|&x| legendre::evaluate(slope, x).powi(2)).collect();
-    let squares = legendre::project(&squares, &nodes, &weights, terms);
-    (0..terms).map(|n| at(&r.gamma22, n) - r.material.nu * membrane(n) - 0.5 * squares[n]).collect()
+/// As many Gauss nodes as `U'^2` has coefficients, which integrate its products with them exactly; never
+/// fewer than the growth has.
+fn gauss_rule(level: usize) -> &'static (Vec<f64>, Vec<f64>) {
+    static RULES: [OnceLock<(Vec<f64>, Vec<f64>)>; SIZES.len()] = [const { OnceLock::new() }; SIZES.len()];
+    RULES[level].get_or_init(|| legendre::gauss(2 * (2 * SIZES[level] + 1)))
 }

@@ -30,7 +30,7 @@ mod second_order;
 pub mod sigma;
 
 pub use closed::ClosedForm;
-pub use deflection::Deflection;
+pub use deflection::{Deflection, InPlane};
 pub use general::GeneralLaw;
 pub use published::PublishedSaddle;
 pub use reduction::Reduction;
@@ -215,7 +215,7 @@ impl Section {
         }
     }
 
-    /// The deflection and in-plane displacements of the section at the strains.
+    /// The deflection of the section at the strains.
     ///
     /// # Errors
     /// For [`Form::SecondOrder`] and [`Form::PublishedSaddle`], which are energies without a deflection.
@@ -228,6 +228,12 @@ impl Section {
             )),
             _ => Ok(Deflection::new(&self.reduction, self.eta, strain)),
         }
+    }
+
+    /// The in-plane displacements of the section that has this deflection at the strains.
+    #[must_use]
+    pub fn in_plane(&self, strain: &Strain, deflection: &Deflection) -> InPlane {
+        InPlane::new(&self.reduction, strain, deflection)
     }
 
     /// The strains less their natural values, before the section relaxes.

@@ -2,6 +2,7 @@ r"""Unloaded equilibria of a ribbon of uniform growth: the pointwise roots of dP
 
 from __future__ import annotations
 
+import math
 import warnings
 
 import numpy as np
@@ -21,8 +22,10 @@ __all__ = ["NODES", "equilibria", "natural_shapes", "solve"]
 NODES = 101
 """Default number of nodes of a state."""
 
-SERIES_RADIUS = 7.46
-"""|K2|/eta up to which the quadratic law's expansion converges (from the least zero of sinh z + sin z)."""
+SERIES_RADIUS = 7.4578
+"""|K2|/eta up to which the quadratic law's expansion converges in an incompressible material.
+
+From the least zero of sinh z + sin z; in others in proportion to (Q22/Y)^(1/2)."""
 
 METHOD = "pointwise natural shape"
 
@@ -87,7 +90,7 @@ def solve(
     Warns
     -----
     RibbonWarning
-        With ``law="quadratic"``, if \|K2\|/eta > 7.46, where its series diverges.
+        With ``law="quadratic"``, if \|K2\|/eta > 7.46 (incompressible material), where its series diverges.
 
     Examples
     --------
@@ -107,9 +110,11 @@ def solve(
     states = equilibria(scene, n)
     state = _stable(states) if guess is None else _nearest(states, guess)
     k2 = abs(state.strain[2]) / scene.ribbon.thickness_ratio
-    if scene.law == "quadratic" and k2 > SERIES_RADIUS:
+    material = scene.ribbon.material
+    radius = SERIES_RADIUS * math.sqrt(0.75 * material.stiffness[1] / material.Y)
+    if scene.law == "quadratic" and k2 > radius:
         warnings.warn(
-            f"|K2|/eta = {k2:.3g} is beyond {SERIES_RADIUS}, where the quadratic law's series diverges",
+            f"|K2|/eta = {k2:.3g} is beyond {radius:.3g}, where the quadratic law's series diverges",
             RibbonWarning,
             stacklevel=2,
         )

@@ -24,6 +24,10 @@ Stiffness: TypeAlias = tuple[float, float, float, float]
 """Q33, Q22, Q23 and G, in the user's unit of stress."""
 
 
+ANISOTROPY = 1e10
+"""Largest ratio of two stiffnesses of a material."""
+
+
 @dataclass(frozen=True)
 class Isotropic:
     """An isotropic material.
@@ -100,6 +104,12 @@ class Orthotropic:
         Q33 Q22 > Q23^2.
     G : float
         Shear modulus in the plane of the ribbon, positive.
+
+    Raises
+    ------
+    InputError
+        If a constant is not positive and finite, the stiffness not positive definite, or Q22 or G more than a
+        factor 1e10 from Young's modulus along the ribbon.
     """
 
     Q33: float
@@ -113,6 +123,10 @@ class Orthotropic:
         object.__setattr__(self, "Q23", number("material.Q23", self.Q23))
         if abs(self.Q23) >= math.sqrt(self.Q33) * math.sqrt(self.Q22):
             raise InputError("material.Q23", self.Q23, "Q23^2 < Q33 Q22, a positive definite stiffness")
+        for name in ("Q22", "G"):
+            if not 1.0 / ANISOTROPY <= getattr(self, name) / self.Y <= ANISOTROPY:
+                expected = f"within a factor {ANISOTROPY:g} of Q33 - Q23^2/Q22 = {self.Y:g}"
+                raise InputError(f"material.{name}", getattr(self, name), expected)
 
     @property
     def Y(self) -> float:

@@ -198,3 +198,32 @@ fn vanishing_growth_has_one_shape() {
         }
     }
 }
+
+/// Near a bifurcation with tiny imperfections the roots are ill-conditioned, the shapes are not.
+#[test]
+fn ill_conditioned_roots_are_polished_or_dropped() {
+    let growth = Growth {
+        gamma33: vec![0.0, 0.0, 0.18187, 1e-9],
+        d22: vec![2e-12],
+        d23: vec![1e-10],
+        ..Growth::default()
+    };
+    let law = Section::new(0.1, &growth, &PlaneStress::incompressible(), Form::Auto).unwrap();
+    for shape in natural_shapes(&law) {
+        // Moments of a state displaced by 1e-5 in K/eta are 1e-12 here; rounding is 1e-19.
+        assert!(law.gradient(&shape.strain).amax() < 1e-17, "{shape:?}");
+    }
+}
+
+/// Within rounding of a pitchfork no list of resolved shapes contradicts itself.
+#[test]
+fn indices_add_up_wherever_shapes_are_resolved() {
+    for critical in [(259f64.sqrt() - 7.0) / 2.0, 5.0] {
+        for i in 0..400 {
+            let all = shapes(critical * (1.0 + 1e-14 * f64::from(i - 10)), 0.0, Form::Closed);
+            if all.iter().all(|s| s.resolved) {
+                assert_eq!(euler_characteristic(&all), 1, "{critical} {i}");
+            }
+        }
+    }
+}

@@ -32,6 +32,7 @@ from numpy.polynomial import Polynomial
 from numpy.polynomial.polynomial import polyval
 from numpy.typing import ArrayLike, NDArray
 
+from .arrays import real_array
 from .errors import InputError
 
 __all__ = ["Saddle", "Twist", "saddle", "twist"]
@@ -82,7 +83,7 @@ def saddle(eta: ArrayLike, xi: ArrayLike, form: str = "consistent") -> Saddle:
     InputError
         If an entry is not a finite number, eta is not positive, or the form is neither of the two.
     """
-    if form not in ("consistent", "published"):
+    if not isinstance(form, str) or form not in ("consistent", "published"):
         raise InputError("form", form, "'consistent' or 'published'")
     return Saddle(_positive(eta), _real("xi", xi), form)
 
@@ -137,7 +138,7 @@ class Twist:
         """
         K2, K3 = _real("K2", K2), _real("K3", K3)
         C = K3**2 / 2 - 4 * self.xi
-        H, G = _profiles(_real("x", x), _z(self.eta, K2))
+        H, G = _profiles(_across(x), _z(self.eta, K2))
         return K2 * (H + 9 * C / self.eta**2 * G)
 
     @property
@@ -225,7 +226,7 @@ class Saddle:
         """
         K2 = _real("K2", K2)
         edge = K2 if self.form == "published" else K2 + self.xi
-        return edge * _profiles(_real("x", x), _z(self.eta, K2))[0]
+        return edge * _profiles(_across(x), _z(self.eta, K2))[0]
 
     def natural_curvature(self) -> Array:
         """Curvature K2 of least energy at K3 = 0.
@@ -249,9 +250,15 @@ class Saddle:
 
 
 def _real(name: str, value: ArrayLike) -> Array:
-    array = np.asarray(value, dtype=np.float64)
-    if not np.all(np.isfinite(array)):
-        raise InputError(name, value, "finite numbers")
+    return real_array(name, value, "finite numbers")
+
+
+def _across(x: ArrayLike) -> Array:
+    """Places x = X2/a within the width."""
+    expected = "numbers in [-1/2, 1/2]"
+    array = real_array("x", x, expected)
+    if np.any(np.abs(array) > 0.5):
+        raise InputError("x", x, expected)
     return array
 
 

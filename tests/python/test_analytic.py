@@ -119,3 +119,20 @@ def test_bad_input_is_named() -> None:
     ]:
         with pytest.raises(InputError, match=text):
             call()
+
+
+@pytest.mark.parametrize("bad", ["a", 1j, [1.0, [2.0]], object(), float("nan"), True])
+def test_what_is_no_number_is_refused(bad):
+    twist, saddle = analytic.twist(0.1, 0.06), analytic.saddle(0.1, 0.1)
+    for make in (
+        lambda: analytic.twist(bad, 0.06),
+        lambda: analytic.twist(0.1, bad),
+        lambda: twist.energy(0.0, 0.0, bad, 0.0),
+        lambda: twist.deflection(bad, 0.1, 0.1),
+        lambda: saddle.deflection(0.2, bad),
+        lambda: analytic.saddle(0.1, 0.1, form=bad),
+    ):
+        with pytest.raises(InputError):
+            make()
+    with pytest.raises(InputError, match=r"^x = 0\.6: "):
+        twist.deflection(0.6, 0.1, 0.1)

@@ -170,7 +170,8 @@ fn nearest(section: &Section, k: f64, twists: &[f64], simple: bool) -> Vec<Point
         .flat_map(|&q| offsets.iter().map(move |offset| Point { k: k + offset * size, q, resolved: true }));
     let polished: Vec<Point> = starts.filter_map(|start| polish(section, start)).collect();
     // A change of sign known only to the noise over a small slope may lie further off than most.
-    for reach in if simple { [1e-5, 1e-3] } else { [1e-3, 1e-3] } {
+    let reaches: &[f64] = if simple { &[1e-5, 1e-3] } else { &[1e-3] };
+    for reach in reaches {
         let near = polished.iter().copied().filter(|p| (p.k - k).abs() < reach * size);
         let kept: Vec<Point> = near.collect();
         if !kept.is_empty() {

@@ -13,18 +13,18 @@ fn shapes(c: &mut Criterion) {
     let edge = |x: f64| Growth::edge(x * eta * eta);
     let chiral = |omega: f64| Growth::chiral(2.0 * eta * omega);
     let profile = Growth {
-        gamma33: vec![0.0, 0.01, 0.3, 0.2, -0.5, 0.1, 0.6],
-        d33: vec![0.1, 0.3, -0.2],
-        d22: vec![-0.05, 0.0, 0.4],
-        d23: vec![0.05, 0.1],
-        g21: vec![0.0, 0.02, 0.1],
+        gamma33: vec![0.0, 0.01, 0.3, 0.2, -0.5, 0.1, 0.6].into(),
+        d33: vec![0.1, 0.3, -0.2].into(),
+        d22: vec![-0.05, 0.0, 0.4].into(),
+        d23: vec![0.05, 0.1].into(),
+        g21: vec![0.0, 0.02, 0.1].into(),
         ..Growth::default()
     };
     // The same growth strains in ever thinner ribbons.
     let strong = Growth {
-        gamma33: vec![0.0, 0.1, 0.4, -0.3, 0.8],
-        d33: vec![0.2, 0.1],
-        d23: vec![0.1],
+        gamma33: vec![0.0, 0.1, 0.4, -0.3, 0.8].into(),
+        d33: vec![0.2, 0.1].into(),
+        d23: vec![0.1].into(),
         ..Growth::default()
     };
     let mut group = c.benchmark_group("natural shapes");

@@ -20,8 +20,8 @@ fn at(k2: f64) -> Strain {
 fn section(c: &mut Criterion) {
     let edge = Growth::edge(0.06) + Growth::chiral(0.04);
     // An even profile of degree 6: eight modes up to |K2| = 7.5 eta or so.
-    let even = Growth { gamma33: vec![0.0, 0.0, 0.3, 0.0, -0.5, 0.0, 1.0], ..Growth::default() };
-    let odd = Growth { gamma33: vec![0.0, 0.01, 0.3, 0.2, -0.5], ..Growth::default() };
+    let even = Growth { gamma33: vec![0.0, 0.0, 0.3, 0.0, -0.5, 0.0, 1.0].into(), ..Growth::default() };
+    let odd = Growth { gamma33: vec![0.0, 0.01, 0.3, 0.2, -0.5].into(), ..Growth::default() };
     let mut group = c.benchmark_group("value, gradient and Hessian");
     for (name, law, k2) in [
         ("closed form, |K2| = 2.4 eta", law(&edge, Form::Closed), 2.4),

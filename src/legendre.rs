@@ -50,6 +50,22 @@ pub fn monomial_derivative(coefficients: &[f64]) -> Vec<f64> {
     derived.map(|(k, c)| k as f64 * c).collect()
 }
 
+/// The derivative of the series.
+///
+/// From `(2n+1) P_n = P'_{n+1} - P'_{n-1}`, downwards.
+#[must_use]
+pub fn derivative(series: &[f64]) -> Vec<f64> {
+    let norm = |n: usize| (2.0 * n as f64 + 1.0).sqrt();
+    let mut derived = vec![0.0; series.len().saturating_sub(1)];
+    // `carried[parity]` is the sum of the coefficients above of one parity, in units of P_n.
+    let mut carried = [0.0; 2];
+    for n in (1..series.len()).rev() {
+        carried[n % 2] += series[n] * norm(n);
+        derived[n - 1] = 2.0 * norm(n - 1) * carried[n % 2];
+    }
+    derived
+}
+
 /// Value of the series at `x`, by Clenshaw's rule on the three-term recurrence.
 #[must_use]
 pub fn evaluate(series: &[f64], x: f64) -> f64 {
@@ -110,6 +126,13 @@ pub fn gauss(n: usize) -> (Vec<f64>, Vec<f64>) {
         weights[i] = 1.0 / value_slope_sum(n, x).2;
     }
     (nodes, weights)
+}
+
+/// The rule of `n` nodes below 2048, computed once.
+#[must_use]
+pub fn rule(n: usize) -> &'static (Vec<f64>, Vec<f64>) {
+    static RULES: [OnceLock<(Vec<f64>, Vec<f64>)>; TABULATED] = [const { OnceLock::new() }; TABULATED];
+    RULES[n].get_or_init(|| gauss(n))
 }
 
 /// `p_n(x)`, `p_n'(x)` and `sum_{k<n} p_k(x)^2`.
@@ -174,6 +197,9 @@ mod tests {
             assert!((evaluate(&product, x) - x * horner(&c, x)).abs() < 1e-15);
         }
         assert!(primitive[0].abs() < 1e-16);
+        for (a, b) in derivative(&primitive).iter().zip(&series) {
+            assert!((a - b).abs() < 1e-15);
+        }
     }
 
     #[test]

@@ -20,6 +20,7 @@ pub mod frame;
 pub mod growth;
 pub mod legendre;
 pub mod material;
+pub mod piecewise;
 pub mod section;
 
 #[cfg(feature = "python")]

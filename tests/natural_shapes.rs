@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use ribbonrs::equilibrium::{Equilibrium, Phase, natural_shapes};
-use ribbonrs::growth::Growth;
+use ribbonrs::growth::{Growth, Profile};
 use ribbonrs::material::PlaneStress;
 use ribbonrs::section::{Form, Section};
 
@@ -145,7 +145,7 @@ proptest! {
     ) {
         let membrane = 30.0 * 10f64.powf(size) * eta * eta;
         let bending = 10f64.powf(0.5 * size + share) * eta;
-        let times = |field: Vec<f64>, factor: f64| field.iter().map(|c| c * factor).collect();
+        let times = |field: Vec<f64>, factor: f64| -> Profile { field.iter().map(|c| c * factor).collect::<Vec<_>>().into() };
         let growth = Growth {
             gamma33: times(gamma33, membrane),
             d33: times(d33, bending),
@@ -183,13 +183,14 @@ proptest! {
 fn vanishing_growth_has_one_shape() {
     for size in [1e-300, 1e-243, 1e-160, 1e-100, 1e-20, 1e-9] {
         let growth = Growth {
-            gamma33: vec![0.0, size, size, size],
-            d33: vec![size],
-            d23: vec![-size],
-            g21: vec![size, size],
+            gamma33: vec![0.0, size, size, size].into(),
+            d33: vec![size].into(),
+            d23: vec![-size].into(),
+            g21: vec![size, size].into(),
             ..Growth::default()
         };
-        for growth in [growth.clone(), Growth { d23: vec![], ..growth.clone() }, Growth::thickness(size, 0.0)]
+        for growth in
+            [growth.clone(), Growth { d23: vec![].into(), ..growth.clone() }, Growth::thickness(size, 0.0)]
         {
             let law = Section::new(ETA, &growth, &PlaneStress::incompressible(), Form::Auto).unwrap();
             let all = natural_shapes(&law);
@@ -203,9 +204,9 @@ fn vanishing_growth_has_one_shape() {
 #[test]
 fn ill_conditioned_roots_are_polished_or_dropped() {
     let growth = Growth {
-        gamma33: vec![0.0, 0.0, 0.18187, 1e-9],
-        d22: vec![2e-12],
-        d23: vec![1e-10],
+        gamma33: vec![0.0, 0.0, 0.18187, 1e-9].into(),
+        d22: vec![2e-12].into(),
+        d23: vec![1e-10].into(),
         ..Growth::default()
     };
     let law = Section::new(0.1, &growth, &PlaneStress::incompressible(), Form::Auto).unwrap();

@@ -14,14 +14,14 @@ fn horner(c: &[f64], x: f64) -> f64 {
 fn every_field(eta: f64) -> Growth {
     let e2 = eta * eta;
     Growth {
-        gamma33: [0.3, -1.0, 12.0, 5.0, -20.0].map(|c| c * e2).to_vec(),
-        d33: [0.8, 1.5, -2.0].map(|c| c * eta).to_vec(),
-        d22: [-0.4, 0.7].map(|c| c * eta).to_vec(),
-        d23: [0.6, -1.0, 3.0].map(|c| c * eta).to_vec(),
-        g21: [0.1, 0.5, -0.8, 2.0].map(|c| c * eta).to_vec(),
-        g31: [0.0, 0.3, 1.1].map(|c| c * eta).to_vec(),
-        gamma22: vec![e2],
-        gamma23: vec![0.0, e2],
+        gamma33: [0.3, -1.0, 12.0, 5.0, -20.0].map(|c| c * e2).to_vec().into(),
+        d33: [0.8, 1.5, -2.0].map(|c| c * eta).to_vec().into(),
+        d22: [-0.4, 0.7].map(|c| c * eta).to_vec().into(),
+        d23: [0.6, -1.0, 3.0].map(|c| c * eta).to_vec().into(),
+        g21: [0.1, 0.5, -0.8, 2.0].map(|c| c * eta).to_vec().into(),
+        g31: [0.0, 0.3, 1.1].map(|c| c * eta).to_vec().into(),
+        gamma22: vec![e2].into(),
+        gamma23: vec![0.0, e2].into(),
     }
 }
 
@@ -37,10 +37,11 @@ fn energy_by_quadrature(law: &Section, growth: &Growth, stiffness: [f64; 4], str
     let derivative = |c: &[f64], x| horner(&legendre::monomial_derivative(c), x);
     let density = |x: f64| {
         let membrane = strain[0] + strain[1] * x - strain[2] * u.u1(x) + 0.5 * (strain[3] * x).powi(2)
-            - horner(&growth.gamma33, x);
-        let b33 = strain[2] + horner(&growth.d33, x);
-        let b22 = u.curvature(x) - derivative(&growth.g21, x) + horner(&growth.d22, x);
-        let b23 = strain[3] + 0.5 * derivative(&growth.g31, x) - 0.5 * horner(&growth.d23, x);
+            - horner(&growth.gamma33.polynomial, x);
+        let b33 = strain[2] + horner(&growth.d33.polynomial, x);
+        let b22 = u.curvature(x) - derivative(&growth.g21.polynomial, x) + horner(&growth.d22.polynomial, x);
+        let b23 =
+            strain[3] + 0.5 * derivative(&growth.g31.polynomial, x) - 0.5 * horner(&growth.d23.polynomial, x);
         let bending = q33 * b33 * b33 + 2.0 * q23 * b33 * b22 + q22 * b22 * b22 + 4.0 * g * b23 * b23;
         0.5 * membrane * membrane + law.eta().powi(2) / 24.0 / e33 * bending
     };
@@ -83,8 +84,9 @@ fn deflection_satisfies_constraints_edges_and_its_own_derivatives() {
         }
         // Natural edge condition b22 + b33/2 = 0.
         for x in [-0.5, 0.5] {
-            let b33 = k2 * eta + horner(&growth.d33, x);
-            let growth22 = horner(&growth.d22, x) - horner(&legendre::monomial_derivative(&growth.g21), x);
+            let b33 = k2 * eta + horner(&growth.d33.polynomial, x);
+            let growth22 = horner(&growth.d22.polynomial, x)
+                - horner(&legendre::monomial_derivative(&growth.g21.polynomial), x);
             let edge = u.curvature(x) + growth22 + 0.5 * b33;
             assert!(edge.abs() < 1e-11 * eta * (1.0 + k2.abs()), "{k2} {x}: {edge:e}");
         }
@@ -159,7 +161,7 @@ fn second_order_form_is_the_limit_of_the_closed_form() {
 #[test]
 fn forms_refuse_growth_they_cannot_represent() {
     let material = PlaneStress::incompressible();
-    let cubic = Growth { gamma33: vec![0.0, 0.0, 0.0, 0.1], ..Growth::default() };
+    let cubic = Growth { gamma33: vec![0.0, 0.0, 0.0, 0.1].into(), ..Growth::default() };
     for (growth, form) in [
         (cubic.clone(), Form::Closed),
         (cubic, Form::SecondOrder),
@@ -181,7 +183,7 @@ proptest! {
         k2 in -100.0..100.0f64, k3 in -20.0..20.0f64, x in -50.0..50.0f64, quartic in -50.0..50.0f64,
     ) {
         let eta = 0.1;
-        let growth = Growth { gamma33: vec![0.0, 0.0, x * eta * eta, 0.0, quartic * eta * eta], ..Growth::default() };
+        let growth = Growth { gamma33: vec![0.0, 0.0, x * eta * eta, 0.0, quartic * eta * eta].into(), ..Growth::default() };
         let law = Section::new(eta, &growth, &PlaneStress::incompressible(), Form::Auto).unwrap();
         let at = |k2: f64, k3: f64| law.energy(&Strain::new(0.01, 0.002, k2 * eta, k3 * eta));
         prop_assert_eq!(at(k2, k3), at(-k2, k3));

@@ -12,10 +12,6 @@ pub fn bound(section: &Section) -> f64 {
     }
 }
 
-fn norm2(series: &[f64]) -> f64 {
-    series.iter().map(|c| c * c).sum()
-}
-
 /// From scaling curvatures and deflection together by `1 + delta`, which leaves the energy stationary.
 ///
 /// With `Q` the bending energy of the deformed section, `Q_g` that of the growth's natural curvatures and
@@ -24,12 +20,11 @@ fn norm2(series: &[f64]) -> f64 {
 fn bound_by_energy(section: &Section) -> f64 {
     let r = section.reduction();
     let eta = section.eta();
-    let gamma2 = norm2(r.gamma33.get(2..).unwrap_or_default());
     let natural = (r.d33 * r.d33 + r.d33_variance) / 24.0
-        + 0.5 * r.material.beta2 * norm2(&r.curvature)
+        + 0.5 * r.material.beta2 * r.mesh.dot(&r.curvature, &r.curvature)
         + r.material.twist * (r.k3 * r.k3 + r.k3_variance);
     let natural = natural * eta * eta;
-    let root = 0.5 * (natural.sqrt() + (natural + gamma2).sqrt());
+    let root = 0.5 * (natural.sqrt() + (natural + r.mismatch_squared()).sqrt());
     24f64.sqrt() * root / (eta * eta)
 }
 
@@ -43,17 +38,21 @@ fn bound_by_energy(section: &Section) -> f64 {
 /// ```
 ///
 /// `r = d22 + nu d33 - g21'` being the curvature whose double integral is `s`, and all growth scaled by the
-/// thickness ratio. The left side grows beyond `|d|/2` and the right side falls.
+/// thickness ratio. The left side grows beyond `|d|/2` and the right side falls. No bound where `gamma33` is not
+/// a polynomial.
 fn bound_by_curvature(section: &Section) -> f64 {
     let r = section.reduction();
     let eta = section.eta();
     let (d, q0) = (r.d33.abs() / eta, r.k3 / eta);
-    let natural = norm2(&r.curvature).sqrt() / eta;
-    let membrane = norm2(&r.gamma33_curvature).sqrt() / (eta * eta);
+    let natural = r.mesh.dot(&r.curvature, &r.curvature).sqrt() / eta;
+    let membrane = r.gamma33_curvature / (eta * eta);
     let excluded = |k: f64| {
         let softness = 0.5 * natural + membrane / k;
         k * (k - d) / 12.0 > 0.5 * r.material.twist * q0 * q0 + r.material.beta2 * softness * softness
     };
+    if membrane.is_infinite() {
+        return f64::INFINITY;
+    }
     let (mut low, mut high) = (0.0, d.max(1.0));
     while !excluded(high) && high.is_finite() {
         (low, high) = (high, 2.0 * high);

@@ -1,55 +1,62 @@
 //! The shape of the cross-section: `u1` and the in-plane displacements.
 
-use std::sync::OnceLock;
-
 use super::basis::{self, SIZES};
 use super::general::{largest_curvatures, level};
-use super::{Reduction, Strain};
+use super::mesh::{Mesh, Series, axpy};
+use super::{Reach, Reduction, Strain};
 use crate::legendre;
 
-/// Deflection of the section in units of `a`, as Legendre series in `x`.
+/// Deflection of the section in units of `a`, as Legendre series in `x` between the jumps of the growth.
 ///
 /// With `D_j = 1/(1 + mu_j k2^2)` the relaxed deflection has in the modes of [`basis`] the components
 /// `eta D_j [k2 mu_j g_j - h_j]`, where `g` is the mismatch without `K2` and `h` the double integral of
 /// the natural transverse curvature: neither small nor large `K2` cancels.
 #[derive(Clone, Debug)]
 pub struct Deflection {
-    level: usize,
-    u1: Vec<f64>,
-    slope: Vec<f64>,
-    curvature: Vec<f64>,
+    mesh: Mesh,
+    u1: Series,
+    slope: Series,
+    curvature: Series,
 }
 
 impl Deflection {
-    pub(super) fn new(r: &Reduction, eta: f64, strain: &Strain) -> Self {
-        // The curvature series must hold the growth as well as the relaxed part.
-        let largest = largest_curvatures(r.material.beta2, r.degree().max(r.curvature.len()));
+    pub(super) fn new(r: &Reduction, reach: Option<&Reach>, eta: f64, strain: &Strain) -> Self {
         // The energy is stationary in the deflection and takes its errors squared; the deflection itself,
         // and more so its second derivative, needs the next truncation for the same accuracy.
-        let level = (level(strain[2] / eta, &largest) + 1).min(SIZES.len() - 1);
-        let (u1, curvature) = relaxed_deflection(r, eta, strain, level);
-        let mut slope = legendre::integrate_zero_mean(&curvature);
-        // int U' = U(1/2) - U(-1/2): twice the odd part of U at the edge.
-        slope[0] = legendre::evaluate(&u1, 0.5) - legendre::evaluate(&u1, -0.5);
-        Self { level, u1, slope, curvature }
+        let finer = |largest| (level(strain[2] / eta, &largest) + 1).min(SIZES.len() - 1);
+        let (u1, relaxed) = match reach {
+            None => {
+                // The curvature series must hold the growth as well as the relaxed part.
+                let degree = r.degree().max(r.curvature[0].len());
+                in_smooth_modes(r, eta, strain, finer(largest_curvatures(r.material.beta2, degree)))
+            }
+            Some(reach) => in_reach(r, reach, eta, strain, finer(reach.largest_curvatures())),
+        };
+        let bending = r.mesh.polynomial(&[r.material.nu * strain[2]]);
+        let curvature = axpy(-1.0, &bending, &axpy(-1.0, &r.curvature, &relaxed));
+        let mut slope = r.mesh.integral_of_zero_mean(&curvature);
+        // int U' = U(1/2) - U(-1/2).
+        let rise = r.mesh.evaluate(&u1, 0.5) - r.mesh.evaluate(&u1, -0.5);
+        slope.iter_mut().for_each(|series| series[0] += rise);
+        Self { mesh: r.mesh.clone(), u1, slope, curvature }
     }
 
     /// `u1/a` at `x`.
     #[must_use]
     pub fn u1(&self, x: f64) -> f64 {
-        legendre::evaluate(&self.u1, x)
+        self.mesh.evaluate(&self.u1, x)
     }
 
     /// `d(u1/a)/dx`.
     #[must_use]
     pub fn slope(&self, x: f64) -> f64 {
-        legendre::evaluate(&self.slope, x)
+        self.mesh.evaluate(&self.slope, x)
     }
 
     /// `d^2(u1/a)/dx^2`.
     #[must_use]
     pub fn curvature(&self, x: f64) -> f64 {
-        legendre::evaluate(&self.curvature, x)
+        self.mesh.evaluate(&self.curvature, x)
     }
 }
 
@@ -62,89 +69,116 @@ impl Deflection {
 /// ```
 #[derive(Clone, Debug)]
 pub struct InPlane {
-    u2: Vec<f64>,
-    u3: Vec<f64>,
+    mesh: Mesh,
+    u2: Series,
+    u3: Series,
 }
 
 impl InPlane {
     pub(super) fn new(r: &Reduction, strain: &Strain, deflection: &Deflection) -> Self {
-        let u1 = &deflection.u1;
-        let moment_arm = legendre::multiply_by_x(&deflection.slope);
-        let shear: Vec<f64> = (0..moment_arm.len().max(u1.len()).max(r.gamma23.len()))
-            .map(|n| at(&r.gamma23, n) - strain[3] * (at(u1, n) - at(&moment_arm, n)))
-            .collect();
+        let arm = axpy(-1.0, &r.mesh.multiply_by_x(&deflection.slope), &deflection.u1);
+        let shear = axpy(-strain[3], &arm, &r.gamma23);
         Self {
-            u2: legendre::integrate_zero_mean(&transverse_strain(r, strain, deflection)),
-            u3: legendre::integrate_zero_mean(&shear),
+            u2: r.mesh.integral_of_zero_mean(&transverse_strain(r, strain, deflection)),
+            u3: r.mesh.integral_of_zero_mean(&shear),
+            mesh: r.mesh.clone(),
         }
     }
 
     /// `u2/a` at `x`, of zero mean.
     #[must_use]
     pub fn u2(&self, x: f64) -> f64 {
-        legendre::evaluate(&self.u2, x)
+        self.mesh.evaluate(&self.u2, x)
     }
 
     /// `u3/a` at `x`, of zero mean.
     #[must_use]
     pub fn u3(&self, x: f64) -> f64 {
-        legendre::evaluate(&self.u3, x)
+        self.mesh.evaluate(&self.u3, x)
     }
 }
 
-fn at(series: &[f64], n: usize) -> f64 {
-    series.get(n).copied().unwrap_or(0.0)
+/// What the modes of a section hold of its strains: the mismatch without `K2`, and the double integral of
+/// the natural transverse curvature, as multiples of `t` and of the rest.
+struct Drive {
+    eta: f64,
+    k2: f64,
+    beta2: f64,
+    along_t: f64,
+    natural: f64,
 }
 
-/// Legendre series of `U` and `U''`.
-fn relaxed_deflection(r: &Reduction, eta: f64, strain: &Strain, level: usize) -> (Vec<f64>, Vec<f64>) {
-    let k2 = strain[2] / eta;
-    let material = r.material;
+impl Drive {
+    fn new(r: &Reduction, eta: f64, strain: &Strain) -> Self {
+        Self {
+            eta,
+            k2: strain[2] / eta,
+            beta2: r.material.beta2,
+            along_t: (strain[3] * strain[3] - r.offset) / (eta * eta),
+            natural: (r.material.nu * strain[2] + r.delta) / eta,
+        }
+    }
+
+    /// Deflection and curvature in a mode of singular value `sigma` from the components of `t`, `s`, `gamma`.
+    fn response(&self, sigma: f64, [t, s, gamma]: [f64; 3]) -> (f64, f64) {
+        let Self { eta, k2, beta2, .. } = *self;
+        let g = self.along_t * t - gamma / (eta * eta);
+        let h = self.natural * t + s / eta;
+        let mu = sigma * sigma / beta2;
+        let d = 1.0 / (1.0 + mu * k2 * k2);
+        // The curvature is eta k2 sigma w d/beta^2 with w = g + k2 h.
+        (eta * d * (k2 * mu * g - h), eta * k2 * (sigma / beta2) * d * (g + k2 * h))
+    }
+}
+
+/// Series of `U` and of `U'' + nu K2 + (d22 + nu d33 - g21')` in the modes of the smooth basis.
+fn in_smooth_modes(r: &Reduction, eta: f64, strain: &Strain, level: usize) -> (Series, Series) {
+    let drive = Drive::new(r, eta, strain);
     let size = SIZES[level];
     let mut u = vec![0.0; 2 * size + 2];
     let mut curvature = vec![0.0; 2 * size];
-    let along_t = (strain[3] * strain[3] - r.offset) / (eta * eta);
-    let natural = (material.nu * strain[2] + r.delta) / eta;
     let parities = if r.has_odd_part() { 0..2 } else { 0..1 };
     for parity in parities {
         let modes = basis::modes(level, parity);
         let t = if parity == 0 { basis::PARABOLA } else { 0.0 };
-        for (j, sigma) in modes.sigma.iter().enumerate() {
-            let first = t * modes.right[(0, j)];
-            let g = along_t * first - modes.component(&r.gamma, parity, j) / (eta * eta);
-            let h = natural * first + modes.component(&r.s, parity, j) / eta;
-            let mu = sigma * sigma / material.beta2;
-            let d = 1.0 / (1.0 + mu * k2 * k2);
-            let component = eta * d * (k2 * mu * g - h);
-            // b = eta k2 sigma w d/beta^2 with w = g + k2 h.
-            let moment = eta * k2 * (sigma / material.beta2) * d * (g + k2 * h);
+        for (j, &sigma) in modes.sigma.iter().enumerate() {
+            let [s, gamma] = [&r.s, &r.gamma].map(|f| modes.component(&f[0], parity, j));
+            let (deflection, bent) = drive.response(sigma, [t * modes.right[(0, j)], s, gamma]);
             for i in 0..size {
-                u[2 * i + 2 + parity] += modes.right[(i, j)] * component;
-                curvature[2 * i + parity] += modes.left[(i, j)] * moment;
+                u[2 * i + 2 + parity] += modes.right[(i, j)] * deflection;
+                curvature[2 * i + parity] += modes.left[(i, j)] * bent;
             }
         }
     }
-    curvature[0] -= material.nu * strain[2];
-    for (c, natural) in curvature.iter_mut().zip(&r.curvature) {
-        *c -= natural;
+    (vec![u], vec![curvature])
+}
+
+/// The same in the modes that growth with jumps reaches.
+fn in_reach(r: &Reduction, reach: &Reach, eta: f64, strain: &Strain, level: usize) -> (Series, Series) {
+    let drive = Drive::new(r, eta, strain);
+    let modes = reach.modes(level);
+    let t = r.mesh.parabola();
+    let (mut u, mut curvature) = (r.mesh.zero(), r.mesh.zero());
+    for (j, &sigma) in modes.sigma.iter().enumerate() {
+        let components = [&t, &r.s, &r.gamma].map(|f| r.mesh.dot(f, &modes.right[j]));
+        let (deflection, bent) = drive.response(sigma, components);
+        u = axpy(deflection, &modes.right[j], &u);
+        if let Some(left) = modes.left.get(j) {
+            curvature = axpy(bent, left, &curvature);
+        }
     }
     (u, curvature)
 }
 
 /// Series of `u2' = -nu m - U'^2/2 + gamma22`.
-fn transverse_strain(r: &Reduction, strain: &Strain, deflection: &Deflection) -> Vec<f64> {
-    let Deflection { level, u1, slope, .. } = deflection;
-    let parabola = legendre::from_monomials(&[strain[0], strain[1], 0.5 * strain[3] * strain[3]]);
-    let membrane = |n: usize| at(&parabola, n) - strain[2] * at(u1, n) - at(&r.gamma33, n);
-    let (nodes, weights) = gauss_rule(*level);
-    let squares: Vec<f64> = nodes.iter().map(|&x| legendre::evaluate(slope, x).powi(2)).collect();
-    let squares = legendre::project(&squares, nodes, weights, nodes.len());
-    (0..nodes.len()).map(|n| at(&r.gamma22, n) - r.material.nu * membrane(n) - 0.5 * squares[n]).collect()
-}
-
-/// As many Gauss nodes as `U'^2` has coefficients, which integrate its products with them exactly; never
-/// fewer than the growth has.
-fn gauss_rule(level: usize) -> &'static (Vec<f64>, Vec<f64>) {
-    static RULES: [OnceLock<(Vec<f64>, Vec<f64>)>; SIZES.len()] = [const { OnceLock::new() }; SIZES.len()];
-    RULES[level].get_or_init(|| legendre::gauss(2 * (2 * SIZES[level] + 1)))
+fn transverse_strain(r: &Reduction, strain: &Strain, deflection: &Deflection) -> Series {
+    let mesh = &r.mesh;
+    let section = mesh.polynomial(&[strain[0], strain[1], 0.5 * strain[3] * strain[3]]);
+    let membrane = axpy(-1.0, &r.gamma33, &axpy(-strain[2], &deflection.u1, &section));
+    // As many coefficients as the square has, and no fewer than the growth.
+    let lengths = deflection.slope.iter().map(|slope| 2 * slope.len() - 1);
+    let squares = mesh.sampled(lengths.fold(1, usize::max), |piece, _, _, y| {
+        legendre::evaluate(&deflection.slope[piece], y).powi(2)
+    });
+    axpy(-r.material.nu, &membrane, &axpy(-0.5, &squares, &r.gamma22))
 }

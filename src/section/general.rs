@@ -1,18 +1,18 @@
-//! The general law: any polynomial growth, in the modes of the relaxed section.
+//! The general law: any growth, in the modes of the relaxed section.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
-use super::Reduction;
 use super::basis::{self, SIZES};
 use super::relaxation::{Mismatch, Relaxation, Relaxed, Square};
+use super::{Reach, Reduction};
 
-/// Relaxed energy of any polynomial growth,
+/// Relaxed energy of any growth,
 ///
 /// ```text
 /// Phi = (1/2) sum_j w_j^2 / (1 + mu_j k2^2),    w_j = W t_j + k2 s_j - gamma_j,    mu_j = sigma_j^2/beta^2,
 /// ```
 ///
-/// a sum of squares over the singular values `sigma_j` of [`basis`]: the mismatch `w` in the modes of
+/// a sum of squares over the singular values `sigma_j` of [`basis`], or of [`Reach`] where growth jumps: the mismatch `w` in the modes of
 /// the section, each relaxed by its own factor. `W` is the parabolic mismatch of the closed form.
 ///
 /// The number of modes follows from `|K2|/eta` and the degree of the growth, so that the truncation
@@ -20,6 +20,7 @@ use super::relaxation::{Mismatch, Relaxation, Relaxed, Square};
 #[derive(Debug)]
 pub struct GeneralLaw {
     reduction: Reduction,
+    reach: Option<Arc<Reach>>,
     mismatch: Mismatch,
     eta: f64,
     largest: [f64; SIZES.len()],
@@ -70,14 +71,16 @@ const GROWTH_OF_CURVATURE: f64 = 4.0;
 const LEAST_SPARE: f64 = 4.0;
 
 impl GeneralLaw {
-    /// The law for the growth reduced in `reduction`.
+    /// The law for the growth reduced in `reduction`; `reach` holds the modes where it jumps.
     #[must_use]
-    pub fn new(reduction: &Reduction, eta: f64) -> Self {
+    pub fn new(reduction: &Reduction, reach: Option<Arc<Reach>>, eta: f64) -> Self {
+        let smooth = || largest_curvatures(reduction.material.beta2, reduction.degree());
         Self {
+            largest: reach.as_ref().map_or_else(smooth, |reach| reach.largest_curvatures()),
             reduction: reduction.clone(),
+            reach,
             mismatch: Mismatch::new(reduction, eta),
             eta,
-            largest: largest_curvatures(reduction.material.beta2, reduction.degree()),
             levels: Default::default(),
         }
     }
@@ -88,6 +91,9 @@ impl GeneralLaw {
 
     fn groups_at(&self, level: usize) -> &[Group] {
         self.levels[level].get_or_init(|| {
+            if let Some(reach) = &self.reach {
+                return growth_in_reach(&self.reduction, reach, level, self.eta);
+            }
             let mut groups = modal_growth(&self.reduction, level, 0, self.eta);
             if self.reduction.has_odd_part() {
                 groups.extend(modal_growth(&self.reduction, level, 1, self.eta));
@@ -149,8 +155,24 @@ fn modal_growth(r: &Reduction, level: usize, parity: usize, eta: f64) -> Vec<Gro
         if parity == 0 {
             group.t[lane] = basis::PARABOLA * modes.right[(0, mode)];
         }
-        group.s[lane] = modes.component(&r.s, parity, mode) / eta;
-        group.gamma[lane] = modes.component(&r.gamma, parity, mode) / (eta * eta);
+        group.s[lane] = modes.component(&r.s[0], parity, mode) / eta;
+        group.gamma[lane] = modes.component(&r.gamma[0], parity, mode) / (eta * eta);
+    }
+    groups
+}
+
+/// The growth in the modes of its reach.
+fn growth_in_reach(r: &Reduction, reach: &Reach, level: usize, eta: f64) -> Vec<Group> {
+    let modes = reach.modes(level);
+    let t = r.mesh.parabola();
+    let mut groups = vec![Group::default(); modes.sigma.len().div_ceil(LANES)];
+    for (mode, sigma) in modes.sigma.iter().enumerate() {
+        let (group, lane) = (&mut groups[mode / LANES], mode % LANES);
+        let component = |f| r.mesh.dot(f, &modes.right[mode]);
+        group.mu[lane] = sigma * sigma / r.material.beta2;
+        group.t[lane] = component(&t);
+        group.s[lane] = component(&r.s) / eta;
+        group.gamma[lane] = component(&r.gamma) / (eta * eta);
     }
     groups
 }
@@ -189,9 +211,9 @@ mod tests {
         for degree in [2, 3, 6, 9, 14, 20, 32] {
             let mut gamma33 = vec![0.0; degree + 1];
             gamma33[degree] = 2f64.powi(degree as i32);
-            let growth = Growth { gamma33, ..Growth::default() };
+            let growth = Growth { gamma33: gamma33.into(), ..Growth::default() };
             let reduction = Reduction::new(&growth, &PlaneStress::incompressible());
-            let law = GeneralLaw::new(&reduction, eta);
+            let law = GeneralLaw::new(&reduction, None, eta);
             for level in 0..SIZES.len() - 1 {
                 for fraction in [1.0, 0.5, 0.1, 1e-3] {
                     let k2 = fraction * law.largest[level] * eta;
@@ -216,7 +238,7 @@ mod tests {
         let eta = 0.1;
         for stiffness in [PlaneStress::incompressible(), PlaneStress::new(1.0, 2.0, 0.3, 0.2).unwrap()] {
             let reduction = Reduction::new(&growth, &stiffness);
-            let general = GeneralLaw::new(&reduction, eta);
+            let general = GeneralLaw::new(&reduction, None, eta);
             let closed = super::super::ClosedForm::new(&reduction, eta).unwrap();
             for k in [0.0, 1e-12, 1e-3, 1.0, 7.5, 23.9, 24.1, 300.0, 1e4, 1e6] {
                 for k2 in [k * eta, -k * eta] {

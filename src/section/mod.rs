@@ -15,7 +15,7 @@
 //! | law | growth | source |
 //! |---|---|---|
 //! | [`ClosedForm`] | edge, thickness gradient, chirality | eqs. (57), (58), stable |
-//! | [`GeneralLaw`] | any polynomials | modes of the section |
+//! | [`GeneralLaw`] | any profiles | modes of the section |
 //! | [`SecondOrder`] | edge, chirality | eq. (59) |
 //! | [`PublishedSaddle`] | thickness gradient | eqs. (47)-(50) as published |
 
@@ -23,6 +23,8 @@ pub mod basis;
 mod closed;
 mod deflection;
 mod general;
+mod mesh;
+mod pieces;
 mod published;
 mod reduction;
 mod relaxation;
@@ -32,10 +34,14 @@ pub mod sigma;
 pub use closed::ClosedForm;
 pub use deflection::{Deflection, InPlane};
 pub use general::GeneralLaw;
+pub use mesh::{Mesh, Series};
+pub use pieces::Reach;
 pub use published::PublishedSaddle;
 pub use reduction::Reduction;
 pub use relaxation::{Relaxation, Relaxed, Square};
 pub use second_order::SecondOrder;
+
+use std::sync::Arc;
 
 use nalgebra::{Matrix4, Vector4};
 
@@ -96,6 +102,7 @@ pub struct Section {
     eta: f64,
     form: Form,
     reduction: Reduction,
+    reach: Option<Arc<Reach>>,
     relaxation: Box<dyn Relaxation>,
 }
 
@@ -114,17 +121,35 @@ impl Section {
     /// # Ok::<(), ribbonrs::InvalidInput>(())
     /// ```
     pub fn new(eta: f64, growth: &Growth, stiffness: &PlaneStress, form: Form) -> Result<Self, InvalidInput> {
+        Self::with_reach(eta, growth, stiffness, form, None)
+    }
+
+    /// The same with the modes of a sum of growths that this one is part of, so that they are found once.
+    ///
+    /// # Errors
+    /// As [`Section::new`].
+    pub fn with_reach(
+        eta: f64,
+        growth: &Growth,
+        stiffness: &PlaneStress,
+        form: Form,
+        reach: Option<Arc<Reach>>,
+    ) -> Result<Self, InvalidInput> {
         if !(eta > 0.0 && eta < 1.0) {
             return Err(InvalidInput::new("eta", eta, "a thickness ratio in (0, 1)"));
         }
         growth.validate()?;
         let reduction = Reduction::new(growth, stiffness);
         let closed = ClosedForm::new(&reduction, eta);
+        let reach = match reach {
+            None if !reduction.mesh.is_single() => Reach::new(&[&reduction]).map(Arc::new),
+            given => given,
+        };
         let (form, relaxation): (Form, Option<Box<dyn Relaxation>>) = match (form, closed) {
             (Form::Auto | Form::Closed, Some(law)) => (Form::Closed, Some(Box::new(law))),
             (Form::Closed, None) => (Form::Closed, None),
             (Form::Auto | Form::General, _) => {
-                (Form::General, Some(Box::new(GeneralLaw::new(&reduction, eta))))
+                (Form::General, Some(Box::new(GeneralLaw::new(&reduction, reach.clone(), eta))))
             }
             (Form::SecondOrder, _) => {
                 let law = SecondOrder::new(&reduction, eta);
@@ -146,7 +171,7 @@ impl Section {
             };
             InvalidInput::new("growth", format!("not of the form {:?}", form.name()), expected)
         })?;
-        Ok(Self { eta, form, reduction, relaxation })
+        Ok(Self { eta, form, reduction, reach, relaxation })
     }
 
     /// Thickness ratio `h/a`.
@@ -226,7 +251,7 @@ impl Section {
                 self.form.name(),
                 "\"closed\" or \"general\", which have a deflection",
             )),
-            _ => Ok(Deflection::new(&self.reduction, self.eta, strain)),
+            _ => Ok(Deflection::new(&self.reduction, self.reach.as_deref(), self.eta, strain)),
         }
     }
 

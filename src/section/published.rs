@@ -27,10 +27,11 @@ impl PublishedSaddle {
     /// The published law; `None` unless the growth is a thickness gradient of `g33` alone.
     #[must_use]
     pub fn new(growth: &Growth, eta: f64) -> Option<Self> {
-        let zero = |series: &[f64]| series.iter().all(|&c| c == 0.0);
-        let xi = growth.d33.first().copied().unwrap_or(0.0);
-        let alone = growth.fields().iter().all(|(name, field)| *name == "d33" || zero(field));
-        (alone && zero(growth.d33.get(1..).unwrap_or_default())).then_some(Self { xi, eta })
+        let d33 = &growth.d33.polynomial;
+        let xi = d33.first().copied().unwrap_or(0.0);
+        let alone = growth.fields().iter().all(|(name, field)| *name == "d33" || field.is_zero());
+        let constant = growth.d33.pieces.is_none() && d33.iter().skip(1).all(|&c| c == 0.0);
+        (alone && constant).then_some(Self { xi, eta })
     }
 }
 

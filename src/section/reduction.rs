@@ -4,6 +4,7 @@
 //! membrane mismatch that the deflection can relieve, as a Legendre series.
 
 use super::basis;
+use super::mesh::{Mesh, Series, axpy};
 use crate::growth::Growth;
 use crate::legendre;
 use crate::material::{PlaneStress, SectionConstants};
@@ -14,8 +15,10 @@ use crate::material::{PlaneStress, SectionConstants};
 /// integral of `1`, the mismatch between the axial membrane strain and the growth is
 ///
 /// ```text
-/// w = [K3^2 + K2 (nu K2 + delta) - offset] t + K2 s(x) - gamma(x),     s, gamma of degree >= 3.
+/// w = [K3^2 + K2 (nu K2 + delta) - offset] t + K2 s(x) - gamma(x),
 /// ```
+///
+/// `s` and `gamma` having no component on `1`, `x` and `t`: without jumps, of Legendre degree 3 and more.
 #[derive(Clone, Debug)]
 pub struct Reduction {
     /// Constants of the material.
@@ -40,20 +43,22 @@ pub struct Reduction {
     pub offset: f64,
     /// `delta`: the part of the natural transverse curvature whose double integral is along `t`.
     pub delta: f64,
-    /// Legendre coefficients, degree 0 up, of the rest of `gamma33`; those below degree 3 are zero.
-    pub gamma: Vec<f64>,
-    /// Legendre coefficients of `s`; those below degree 3 are zero.
-    pub s: Vec<f64>,
-    /// Legendre coefficients of `d22 + nu d33 - g21'`.
-    pub curvature: Vec<f64>,
-    /// Legendre coefficients of `gamma33`.
-    pub gamma33: Vec<f64>,
-    /// Legendre coefficients of `gamma33''`.
-    pub gamma33_curvature: Vec<f64>,
-    /// Legendre coefficients of `gamma22`.
-    pub gamma22: Vec<f64>,
-    /// Legendre coefficients of `gamma23`.
-    pub gamma23: Vec<f64>,
+    /// The pieces between the jumps of the growth, on which the following are given.
+    pub mesh: Mesh,
+    /// The rest of `gamma33`.
+    pub gamma: Series,
+    /// `s`.
+    pub s: Series,
+    /// `d22 + nu d33 - g21'`.
+    pub curvature: Series,
+    /// `gamma33`.
+    pub gamma33: Series,
+    /// Norm of `gamma33''` over the width; infinite where `gamma33` is not a polynomial.
+    pub gamma33_curvature: f64,
+    /// `gamma22`.
+    pub gamma22: Series,
+    /// `gamma23`.
+    pub gamma23: Series,
 }
 
 impl Reduction {
@@ -61,74 +66,82 @@ impl Reduction {
     #[must_use]
     pub fn new(growth: &Growth, stiffness: &PlaneStress) -> Self {
         let material = stiffness.section_constants();
-        let d33 = legendre::from_monomials(&growth.d33);
-        let twist = axpy(
-            -0.5,
-            &legendre::from_monomials(&legendre::monomial_derivative(&growth.g31)),
-            &scaled(0.5, &legendre::from_monomials(&growth.d23)),
-        );
-        let curvature = axpy(
-            -1.0,
-            &legendre::from_monomials(&legendre::monomial_derivative(&growth.g21)),
-            &axpy(material.nu, &d33, &legendre::from_monomials(&growth.d22)),
-        );
-        // The constant part is `t` itself and enters exactly; only the rest goes through the basis.
-        let mut varying = curvature.clone();
-        let constant = varying.first_mut().map_or(0.0, std::mem::take);
-        let mut s = basis::double_integral(&varying);
-        let delta = constant + s.get(2).map_or(0.0, |s2| s2 / basis::PARABOLA);
-        let mut gamma = legendre::from_monomials(&growth.gamma33);
-        let gamma33 = gamma.clone();
-        for series in [&mut s, &mut gamma] {
-            series.iter_mut().take(3).for_each(|c| *c = 0.0);
-            while series.last() == Some(&0.0) {
-                series.pop();
-            }
-        }
+        let mesh = Mesh::of(growth);
+        let d33 = mesh.profile(&growth.d33);
+        let twist =
+            axpy(-0.5, &mesh.derivative(&growth.g31), &axpy(0.5, &mesh.profile(&growth.d23), &mesh.zero()));
+        let curvature =
+            axpy(-1.0, &mesh.derivative(&growth.g21), &axpy(material.nu, &d33, &mesh.profile(&growth.d22)));
+        // The mean is `t` itself and enters exactly; only the rest goes through the basis.
+        let mean = mesh.mean(&curvature);
+        let mut s = mesh.double_integral(&axpy(-mean, &mesh.polynomial(&[1.0]), &curvature));
+        let delta = mean + mesh.take_parabola(&mut s);
+        // Moments of monomials are rational up to a power of two and more exact than those of the series.
+        let axial = &growth.gamma33.polynomial;
+        let gamma33 = mesh.profile(&growth.gamma33);
+        let mut gamma = gamma33.clone();
+        mesh.take_parabola(&mut gamma);
+        let stepped = match &growth.gamma33.pieces {
+            Some(pieces) => pieces.refined(mesh.breaks()).pieces().to_vec(),
+            None => mesh.zero(),
+        };
+        let stepped_mean = mesh.mean(&stepped);
+        let stepped_slope = mesh.mean(&mesh.multiply_by_x(&stepped));
+        let stepped_parabola = mesh.dot(&stepped, &mesh.parabola()) / (basis::PARABOLA * basis::PARABOLA);
         Self {
             material,
-            eps: monomial_sum(&growth.gamma33, |k| even(k) / (k + 1.0)),
-            eps_constant: growth.gamma33.first().copied().unwrap_or(0.0),
-            eps_spread: monomial_sum(
-                &growth.gamma33,
-                |k| if k > 0.0 { 24.0 * even(k) / (k + 1.0) } else { 0.0 },
-            ),
-            k1: monomial_sum(&growth.gamma33, |k| 6.0 * odd(k) / (k + 2.0)),
-            d33: monomial_sum(&growth.d33, |k| even(k) / (k + 1.0)),
-            d33_variance: variance(&d33),
-            k3: twist.first().copied().unwrap_or(0.0),
-            k3_variance: variance(&twist),
-            offset: monomial_sum(&growth.gamma33, |k| even(k) * 60.0 * k / ((k + 1.0) * (k + 3.0))),
+            eps: stepped_mean + monomial_sum(axial, |k| even(k) / (k + 1.0)),
+            eps_constant: stepped_mean + axial.first().copied().unwrap_or(0.0),
+            eps_spread: monomial_sum(axial, |k| if k > 0.0 { 24.0 * even(k) / (k + 1.0) } else { 0.0 }),
+            k1: 12.0 * stepped_slope + monomial_sum(axial, |k| 6.0 * odd(k) / (k + 2.0)),
+            d33: mesh.mean(&d33),
+            d33_variance: mesh.variance(&d33),
+            k3: mesh.mean(&twist),
+            k3_variance: mesh.variance(&twist),
+            offset: stepped_parabola + monomial_sum(axial, |k| even(k) * 60.0 * k / ((k + 1.0) * (k + 3.0))),
             delta,
             gamma,
             s,
             curvature,
+            gamma33_curvature: match &growth.gamma33.pieces {
+                Some(_) => f64::INFINITY,
+                None => norm(&legendre::from_monomials(&legendre::monomial_derivative(
+                    &legendre::monomial_derivative(axial),
+                ))),
+            },
             gamma33,
-            gamma33_curvature: legendre::from_monomials(&legendre::monomial_derivative(
-                &legendre::monomial_derivative(&growth.gamma33),
-            )),
-            gamma22: legendre::from_monomials(&growth.gamma22),
-            gamma23: legendre::from_monomials(&growth.gamma23),
+            gamma22: mesh.profile(&growth.gamma22),
+            gamma23: mesh.profile(&growth.gamma23),
+            mesh,
         }
+    }
+
+    /// Integral over the width of the square of `gamma33` less its components on `1` and `x`.
+    #[must_use]
+    pub fn mismatch_squared(&self) -> f64 {
+        let parabola = self.offset * basis::PARABOLA;
+        parabola * parabola + self.mesh.dot(&self.gamma, &self.gamma)
     }
 
     /// Whether the mismatch is along `t` alone, so that the closed form holds.
     #[must_use]
     pub fn is_parabolic(&self) -> bool {
-        self.gamma.is_empty() && self.s.is_empty()
+        let zero = |f: &Series| f.iter().flatten().all(|&c| c == 0.0);
+        zero(&self.gamma) && zero(&self.s)
     }
 
-    /// Whether the mismatch has a part odd in `x`.
+    /// Whether the mismatch may have a part odd in `x`.
     #[must_use]
     pub fn has_odd_part(&self) -> bool {
-        let odd = |series: &[f64]| series.iter().skip(1).step_by(2).any(|&c| c != 0.0);
-        odd(&self.gamma) || odd(&self.s)
+        let odd = |f: &Series| f[0].iter().skip(1).step_by(2).any(|&c| c != 0.0);
+        !self.mesh.is_single() || odd(&self.gamma) || odd(&self.s)
     }
 
-    /// Highest Legendre degree of the mismatch.
+    /// Highest Legendre degree of the mismatch on any piece.
     #[must_use]
     pub fn degree(&self) -> usize {
-        self.gamma.len().max(self.s.len()).max(3) - 1
+        let lengths = self.gamma.iter().chain(&self.s).map(Vec::len);
+        lengths.fold(3, usize::max) - 1
     }
 
     /// Whether `K2 -> -K2` leaves the energy unchanged.
@@ -137,8 +150,13 @@ impl Reduction {
     /// `<d33>`, and within each parity in `x` the shape `s` against `t` and `gamma`.
     #[must_use]
     pub fn is_symmetric_in_bending(&self) -> bool {
-        let zero = |series: &[f64], parity| series.iter().skip(parity).step_by(2).all(|&c| c == 0.0);
-        self.d33 == 0.0 && self.delta == 0.0 && zero(&self.s, 0) && (zero(&self.s, 1) || zero(&self.gamma, 1))
+        let zero = |f: &Series, parity| f[0].iter().skip(parity).step_by(2).all(|&c| c == 0.0);
+        let opposite = if self.mesh.is_single() {
+            zero(&self.s, 0) && (zero(&self.s, 1) || zero(&self.gamma, 1))
+        } else {
+            self.s.iter().flatten().all(|&c| c == 0.0)
+        };
+        self.d33 == 0.0 && self.delta == 0.0 && opposite
     }
 }
 
@@ -156,18 +174,6 @@ fn odd(k: f64) -> f64 {
     k % 2.0
 }
 
-fn variance(series: &[f64]) -> f64 {
-    series.iter().skip(1).map(|c| c * c).sum()
-}
-
-fn scaled(factor: f64, series: &[f64]) -> Vec<f64> {
-    series.iter().map(|c| factor * c).collect()
-}
-
-/// `a u + v` for series of any lengths.
-fn axpy(a: f64, u: &[f64], v: &[f64]) -> Vec<f64> {
-    let mut sum = v.to_vec();
-    sum.resize(u.len().max(v.len()), 0.0);
-    sum.iter_mut().zip(u).for_each(|(s, u)| *s += a * u);
-    sum
+fn norm(series: &[f64]) -> f64 {
+    series.iter().map(|c| c * c).sum::<f64>().sqrt()
 }

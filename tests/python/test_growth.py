@@ -125,11 +125,6 @@ def test_profiles_are_short_lists_of_coefficients(value):
         refuses(f"growth.profile.{field}", lambda field=field: rb.growth.Profile(**{field: value}))
 
 
-@pytest.mark.parametrize("value", [np.eye(2), [[0.1], [0.2]], ([0.0, 1.0], [0.0, 0.1])])
-def test_samples_are_refused_by_their_first_entry(value):
-    refuses("growth.profile.gamma33[0]", lambda: rb.growth.Profile(gamma33=value))
-
-
 def test_profile_needs_a_field():
     refuses("growth.profile", lambda: rb.growth.Profile())
 

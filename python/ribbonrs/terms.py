@@ -1,0 +1,259 @@
+"""Sums of growths: each a shape across the width times an amplitude, which may vary along the ribbon."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+import numpy as np
+from numpy.polynomial.polynomial import polyval
+from numpy.typing import ArrayLike
+
+from .along import Amplitude, evaluated
+from .arrays import Array, real_array
+from .errors import InputError
+from .pieces import Pieces
+from .resolve import adapted
+
+__all__ = ["FIELDS", "CoreTerm", "Growth", "Shape", "Term"]
+
+FIELDS = ("gamma33", "d33", "d22", "d23", "g21", "g31", "gamma22", "gamma23")
+"""The parts of the growth tensor that act."""
+
+Shape: TypeAlias = tuple[float, ...] | Pieces
+"""A field across the width: coefficients in x, lowest power first, or pieces from -1/2 to 1/2."""
+
+_CorePieces: TypeAlias = tuple[list[float], list[list[float]]]
+
+CoreTerm: TypeAlias = tuple[float | _CorePieces, dict[str, list[float] | _CorePieces]]
+"""A term as the core takes it: pieces are their breaks and the Legendre coefficients of each."""
+
+END = 1e-12
+"""How far from the ends of the ribbon, relative to its length, samples along it may start and end."""
+
+
+@dataclass(frozen=True)
+class Term:
+    """One growth of a sum.
+
+    Attributes
+    ----------
+    name : str
+        Its name within the sum.
+    amplitude : float, Pieces or callable
+        A number, samples over S = X3/a, or the user's function of S.
+    shape : tuple of (str, tuple of float or Pieces)
+        Each field present and what it is at amplitude 1.
+    """
+
+    name: str
+    amplitude: Amplitude
+    shape: tuple[tuple[str, Shape], ...]
+    _resolved: dict[float, Pieces] = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    @property
+    def path(self) -> str:
+        """The name of the amplitude, in errors and as a parameter."""
+        return f"growth.{self.name}.amplitude"
+
+    def along(self, length: float | None) -> float | Pieces:
+        """Return the amplitude as a number or pieces; a function of S is resolved on [0, length], once."""
+        if not callable(self.amplitude):
+            return self.amplitude
+        if length is None:
+            raise InputError("length", length, f"the length over the width: {self.path} is a function of S")
+        if length not in self._resolved:
+            self._resolved[length] = adapted(self.path, self.amplitude, length)
+        return self._resolved[length]
+
+
+@dataclass(frozen=True)
+class Growth:
+    """A sum of growths of different names; made by the functions of `ribbonrs.growth`.
+
+    Raises
+    ------
+    InputError
+        If two terms have the same name, or the sum is too large for a floating-point number.
+
+    Examples
+    --------
+    >>> import ribbonrs as rb
+    >>> (rb.growth.edge(0.06) + rb.growth.chiral(0.04)).values(x=0.5)
+    {'gamma33': array(0.06), 'd23': array(0.04)}
+    """
+
+    terms: tuple[Term, ...]
+
+    def __post_init__(self) -> None:
+        names = [term.name for term in self.terms]
+        for name in names:
+            if names.count(name) > 1:
+                raise InputError("growth.name", name, "a different name for each growth of a sum")
+        for key in FIELDS:
+            bounds = [_bound(term.amplitude) * _bound(shape) for term, shape in self._of(key)]
+            if not math.isfinite(math.fsum(bounds) if all(map(math.isfinite, bounds)) else math.inf):
+                raise InputError(f"growth.{key}", math.inf, "a sum of finite numbers")
+
+    def __add__(self, other: Growth) -> Growth:
+        if not isinstance(other, Growth):
+            return NotImplemented
+        return Growth(self.terms + other.terms)
+
+    def __radd__(self, other: int) -> Growth:
+        """Let `sum` start from its 0."""
+        return self if other == 0 else NotImplemented
+
+    def fields(self) -> dict[str, list[float]]:
+        """Return the polynomial coefficients of each field present; of constant polynomial growth only."""
+        sums: dict[str, list[float]] = {}
+        for amplitude, shapes in self.core_terms():
+            for key, shape in shapes.items():
+                if isinstance(amplitude, tuple) or isinstance(shape, tuple):
+                    raise InputError("growth", self, "constant polynomial growth in this version")
+                mine = sums.get(key, [])
+                longest = max(len(mine), len(shape))
+                zeros = [0.0] * longest
+                sums[key] = [
+                    a + amplitude * b
+                    for a, b in zip((mine + zeros)[:longest], (shape + zeros)[:longest], strict=True)
+                ]
+        return {key: sums[key] for key in FIELDS if key in sums}
+
+    @property
+    def varies(self) -> bool:
+        """Whether it varies along the ribbon."""
+        return not all(isinstance(term.amplitude, float) for term in self.terms)
+
+    @property
+    def domain(self) -> tuple[float, float] | None:
+        """The S that all samples along the ribbon cover, None if there are no samples."""
+        ranges = [term.amplitude.domain for term in self.terms if isinstance(term.amplitude, Pieces)]
+        if not ranges:
+            return None
+        starts, ends = zip(*ranges, strict=True)
+        return max(starts), min(ends)
+
+    def check_covers(self, length: float) -> None:
+        """Refuse samples along the ribbon that do not reach from S = 0 to `length`, in units of the width."""
+        for term in self.terms:
+            if isinstance(term.amplitude, Pieces):
+                start, end = term.amplitude.domain
+                if start > END * length or end < (1.0 - END) * length:
+                    raise InputError(term.path, (start, end), f"samples from S = 0 to S = {length}")
+
+    def core_terms(self, length: float | None = None) -> list[CoreTerm]:
+        """Return the terms as the core takes them: (amplitude, {field: shape}).
+
+        Numbers, and lists of polynomial coefficients in x, stay what they are; all else becomes breaks and
+        Legendre coefficients. `length` is that of the ribbon in units of its width: functions of S need it.
+        """
+        terms: list[CoreTerm] = []
+        for term in self.terms:
+            amplitude = term.along(length)
+            shapes = {key: _core(s) if isinstance(s, Pieces) else list(s) for key, s in term.shape}
+            terms.append((_core(amplitude) if isinstance(amplitude, Pieces) else amplitude, shapes))
+        return terms
+
+    def values(self, x: ArrayLike, S: ArrayLike = 0.0) -> dict[str, Array]:
+        """Return the growth fields present, at x = X2/a in [-1/2, 1/2] and S = X3/a, broadcast.
+
+        Where a field jumps it is the value to the right.
+        """
+        points = real_array("x", x, "finite numbers in [-1/2, 1/2]")
+        stations = real_array("S", S, "finite numbers")
+        sums: dict[str, Array] = {}
+        for term in self.terms:
+            amplitude = evaluated(term.path, term.amplitude, stations)
+            for key, shape in term.shape:
+                sums[key] = sums.get(key, np.zeros(())) + amplitude * _profile(shape, points)
+        return {key: np.asarray(sums[key]) for key in FIELDS if key in sums}
+
+    def size(self, thickness_ratio: float, length: float | None = None) -> float:
+        """Return the largest growth strain over the cross-section, and along the ribbon where it varies.
+
+        The maximum over x in [-1/2, 1/2], over S in [0, length] and over the fields of the absolute value of
+        gamma33, gamma22, gamma23, g21, g31, and of d33, d22, d23 times half the thickness ratio: growth at
+        the faces. Found on points that miss at most 2 % of it.
+        """
+        sizes = [0.0]
+        for key in FIELDS:
+            parts = self._of(key)
+            if parts:
+                lever = thickness_ratio / 2 if key.startswith("d") else 1.0
+                with np.errstate(over="ignore", invalid="ignore"):
+                    amplitudes = _amplitudes([term.along(length) for term, _ in parts], length)
+                    profiles = _profiles([shape for _, shape in parts])
+                    sizes.append(lever * _largest_sum(amplitudes, profiles))
+        return float(np.max(sizes))  # NaN, where huge terms cancel, is the largest
+
+    def _of(self, key: str) -> list[tuple[Term, Shape]]:
+        """The terms with this field, and its shape in each."""
+        return [(term, shape) for term in self.terms for name, shape in term.shape if name == key]
+
+
+def _core(pieces: Pieces) -> _CorePieces:
+    return list(pieces.breaks), [list(coefficients) for coefficients in pieces.coefficients]
+
+
+def _profile(shape: Shape, x: Array, left: bool = False) -> Array:
+    """A field at x; where it jumps the value to the right or to the left."""
+    if isinstance(shape, Pieces):
+        return shape.evaluate(x, left)
+    return np.asarray(polyval(x, np.array(shape)), dtype=np.float64)
+
+
+def _bound(function: Shape | Amplitude) -> float:
+    """A number that the function does not exceed; 1 for one of the user's, whose values are limited."""
+    if isinstance(function, Pieces):
+        return max(sum(map(abs, piece)) for piece in function.coefficients)
+    if isinstance(function, tuple):
+        return sum(map(abs, function))
+    return 1.0 if callable(function) else abs(function)
+
+
+def _profiles(shapes: Sequence[Shape]) -> Array:
+    """Fields (k, n) at common points across the width, which do not miss their extremes."""
+    x, breaks = _points(shapes, (-0.5, 0.5), density=32)
+    return np.stack([np.concatenate([_profile(s, x), _profile(s, breaks, left=True)]) for s in shapes])
+
+
+def _amplitudes(amplitudes: Sequence[float | Pieces], length: float | None) -> Array:
+    """Amplitudes (k, n) at common points along the ribbon; n = 1 if none of them varies."""
+    varying = [a for a in amplitudes if isinstance(a, Pieces)]
+    if not varying:
+        return np.array(amplitudes, dtype=np.float64)[:, None]
+    starts, ends = zip(*(a.domain for a in varying), strict=True)
+    S, breaks = _points(varying, (max(starts), min(ends)) if length is None else (0.0, length), density=8)
+    rows = []
+    for amplitude in amplitudes:
+        known = amplitude if isinstance(amplitude, Pieces) else Pieces((0.0, 1.0), ((amplitude,),))
+        rows.append(np.concatenate([known.evaluate(S), known.evaluate(breaks, left=True)]))
+    return np.stack(rows)
+
+
+def _points(functions: Sequence[Shape], domain: tuple[float, float], density: int) -> tuple[Array, Array]:
+    """Chebyshev points between all neighbouring breaks of the functions, `density` for a degree; the breaks.
+
+    A polynomial of degree d does not rise by more than a factor 1/cos(pi / (2 density)) between them.
+    """
+    start, end = domain
+    pieces = [f for f in functions if isinstance(f, Pieces)]
+    inner = {t for f in pieces for t in f.breaks if start < t < end}
+    breaks = np.array([start, *sorted(inner), end])
+    degree = max(f.degree if isinstance(f, Pieces) else len(f) - 1 for f in functions)
+    count = density * degree if degree > 1 else 1
+    nodes = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, count + 1))
+    return (breaks[:-1, None] + np.diff(breaks)[:, None] * nodes).ravel(), breaks
+
+
+def _largest_sum(amplitudes: Array, profiles: Array) -> float:
+    """The largest absolute value of sum_k a_k(S) f_k(x), amplitudes (k, n) and profiles (k, m)."""
+    rows = max(1, 1_000_000 // profiles.shape[1])  # of the table (n, m) at a time
+    largest = 0.0
+    for i in range(0, amplitudes.shape[1], rows):
+        values = np.abs(amplitudes[:, i : i + rows].T @ profiles)
+        largest = float(np.maximum(largest, np.max(values)))
+    return largest

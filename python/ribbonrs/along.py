@@ -16,7 +16,7 @@ from .pieces import Pieces, linear
 from .resolve import Function, called
 from .samples import Samples, checked
 
-__all__ = ["AlongInput", "Amplitude", "amplitude", "evaluated", "function_of_s"]
+__all__ = ["AlongInput", "Amplitude", "amplitude", "check_covers", "evaluated", "function_of_s"]
 
 Amplitude: TypeAlias = float | Pieces | Function
 """A number, samples joined linearly, or the user's function."""
@@ -26,6 +26,10 @@ AlongInput: TypeAlias = float | Samples | Function
 
 CLOSEST = 1e-12
 """Least distance of two samples, relative to the last S: closer ones must be at the same S, a jump."""
+
+
+END = 1e-12
+"""How far from the ends of the ribbon, relative to its length, samples may start and end."""
 
 
 def amplitude(field: str, value: Any) -> Amplitude:
@@ -43,6 +47,8 @@ def function_of_s(field: str, value: Any) -> Pieces | Function:
     if callable(value):
         function: Function = value
         return function
+    if not isinstance(value, tuple):
+        raise InputError(field, value, "samples (S, values) or a function of S")
     S, values = checked(field, value, "S")
     if S[0] < 0.0:
         raise InputError(f"{field}.S[0]", float(S[0]), "S = X3/a from 0, the start of the ribbon")
@@ -59,6 +65,13 @@ def function_of_s(field: str, value: Any) -> Pieces | Function:
         i = int(repeated[0])
         raise InputError(f"{field}.S[{i}]", float(S[i]), "ascending numbers; a jump inside, the same S twice")
     return linear(S, values)
+
+
+def check_covers(field: str, pieces: Pieces, length: float) -> None:
+    """Refuse samples that do not reach from S = 0 to `length`, in units of the width."""
+    start, end = pieces.domain
+    if start > END * length or end < (1.0 - END) * length:
+        raise InputError(field, (start, end), f"samples from S = 0 to S = {length}")
 
 
 def evaluated(field: str, value: Amplitude, S: Array) -> Array:

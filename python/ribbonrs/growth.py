@@ -14,10 +14,11 @@ Growths add: ``edge(0.06) + chiral(0.04)``. Amplitudes are numbers or vary with 
 from __future__ import annotations
 
 from .along import AlongInput, Amplitude, amplitude
+from .measured import from_csv, stations
 from .profile import Profile, path_of
 from .terms import FIELDS, Growth, Shape, Term
 
-__all__ = ["FIELDS", "Growth", "Profile", "Term", "chiral", "edge", "thickness"]
+__all__ = ["FIELDS", "Growth", "Profile", "Term", "chiral", "edge", "from_csv", "stations", "thickness"]
 
 
 def edge(xi: AlongInput, name: str = "edge") -> Growth:

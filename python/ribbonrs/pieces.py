@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from .arrays import Array
 
-__all__ = ["Pieces", "joined", "linear", "series"]
+__all__ = ["Pieces", "grid", "joined", "linear", "series"]
 
 
 @dataclass(frozen=True)
@@ -74,6 +74,22 @@ class Pieces:
     def scaled(self, factor: float) -> Pieces:
         """Return `factor` times the function."""
         return Pieces(self.breaks, tuple(tuple(factor * c for c in piece) for piece in self.coefficients))
+
+
+def grid(
+    functions: Sequence[Pieces], domain: tuple[float, float], degree: int, density: int
+) -> tuple[Array, Array]:
+    """Return points that do not miss extremes of functions of this degree, and the breaks among them.
+
+    Chebyshev points between neighbouring breaks, `density` for each degree: a polynomial does not rise by
+    more than a factor 1 / cos(pi / (2 density)) between them. At the breaks there are also left limits.
+    """
+    start, end = domain
+    inner = {t for f in functions for t in f.breaks if start < t < end}
+    breaks = np.array([start, *sorted(inner), end])
+    count = density * degree if degree > 1 else 1
+    nodes = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, count + 1))
+    return (breaks[:-1, None] + np.diff(breaks)[:, None] * nodes).ravel(), breaks
 
 
 def series(polynomial: Sequence[float], start: float, end: float) -> tuple[float, ...]:

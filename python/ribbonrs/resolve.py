@@ -65,7 +65,7 @@ def called(field: str, function: Function, points: Array, variable: str) -> Arra
     if values.dtype.kind not in "iuf":
         raise InputError(field, returned, f"real numbers from {expected}")
     if values.shape != points.shape:
-        raise InputError(field, function, f"{expected}: for {points.shape} it is {values.shape}")
+        raise InputError(field, function, f"{expected}, not {values.shape} for {points.shape}")
     if values.dtype.kind == "f" and values.dtype.itemsize < 8:
         raise InputError(field, function, f"{expected} of 64-bit numbers, not {values.dtype}")
     values = values.astype(np.float64)
@@ -190,11 +190,11 @@ def _met(series: Array, a: float, b: float, checks: Array, size: float) -> tuple
     if error > 16.0 * EPS * size + 2.0 * EPS * max(abs(a), abs(b)) * slope:
         return None
     # What is no larger than the last coefficients is rounding, if the series is as good without it.
-    least = 0.5 * EPS * size
-    for noise in (max(least, float(np.max(np.abs(series[-(series.size // 8) :])))), least):
+    last = float(np.max(np.abs(series[-(series.size // 8) :])))
+    for noise in (max(2.0 * EPS * size, last), 0.5 * EPS * size):
         kept = np.flatnonzero(np.abs(series) > noise)
         short = series[: kept[-1] + 1] if kept.size else np.zeros(1)
-        if float(np.max(np.abs(legval(xi, short) - checks))) <= max(EPS * size, 2.0 * error):
+        if float(np.max(np.abs(legval(xi, short) - checks))) <= 2.0 * max(EPS * size, error):
             return tuple(short.tolist())
     return tuple(series.tolist())
 

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
 from numpy.polynomial.polynomial import polyval
 from numpy.typing import ArrayLike
 
-from .along import Amplitude, evaluated
+from .along import Amplitude, check_covers, evaluated
 from .arrays import Array, real_array
 from .errors import InputError
-from .pieces import Pieces
+from .pieces import Pieces, grid
 from .resolve import adapted
 
 __all__ = ["FIELDS", "CoreTerm", "Growth", "Shape", "Term"]
@@ -29,9 +30,6 @@ _CorePieces: TypeAlias = tuple[list[float], list[list[float]]]
 
 CoreTerm: TypeAlias = tuple[float | _CorePieces, dict[str, list[float] | _CorePieces]]
 """A term as the core takes it: pieces are their breaks and the Legendre coefficients of each."""
-
-END = 1e-12
-"""How far from the ends of the ribbon, relative to its length, samples along it may start and end."""
 
 
 @dataclass(frozen=True)
@@ -51,12 +49,16 @@ class Term:
     name: str
     amplitude: Amplitude
     shape: tuple[tuple[str, Shape], ...]
-    _resolved: dict[float, Pieces] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @property
     def path(self) -> str:
         """The name of the amplitude, in errors and as a parameter."""
         return f"growth.{self.name}.amplitude"
+
+    @cached_property
+    def _resolved(self) -> dict[float, Pieces]:
+        """A function of S as pieces, for each length so far."""
+        return {}
 
     def along(self, length: float | None) -> float | Pieces:
         """Return the amplitude as a number or pieces; a function of S is resolved on [0, length], once."""
@@ -140,9 +142,7 @@ class Growth:
         """Refuse samples along the ribbon that do not reach from S = 0 to `length`, in units of the width."""
         for term in self.terms:
             if isinstance(term.amplitude, Pieces):
-                start, end = term.amplitude.domain
-                if start > END * length or end < (1.0 - END) * length:
-                    raise InputError(term.path, (start, end), f"samples from S = 0 to S = {length}")
+                check_covers(term.path, term.amplitude, length)
 
     def core_terms(self, length: float | None = None) -> list[CoreTerm]:
         """Return the terms as the core takes them: (amplitude, {field: shape}).
@@ -216,7 +216,8 @@ def _bound(function: Shape | Amplitude) -> float:
 
 def _profiles(shapes: Sequence[Shape]) -> Array:
     """Fields (k, n) at common points across the width, which do not miss their extremes."""
-    x, breaks = _points(shapes, (-0.5, 0.5), density=32)
+    degree = max(s.degree if isinstance(s, Pieces) else len(s) - 1 for s in shapes)
+    x, breaks = grid([s for s in shapes if isinstance(s, Pieces)], (-0.5, 0.5), degree, density=32)
     return np.stack([np.concatenate([_profile(s, x), _profile(s, breaks, left=True)]) for s in shapes])
 
 
@@ -226,27 +227,13 @@ def _amplitudes(amplitudes: Sequence[float | Pieces], length: float | None) -> A
     if not varying:
         return np.array(amplitudes, dtype=np.float64)[:, None]
     starts, ends = zip(*(a.domain for a in varying), strict=True)
-    S, breaks = _points(varying, (max(starts), min(ends)) if length is None else (0.0, length), density=8)
+    domain = (max(starts), min(ends)) if length is None else (0.0, length)
+    S, breaks = grid(varying, domain, max(a.degree for a in varying), density=8)
     rows = []
     for amplitude in amplitudes:
         known = amplitude if isinstance(amplitude, Pieces) else Pieces((0.0, 1.0), ((amplitude,),))
         rows.append(np.concatenate([known.evaluate(S), known.evaluate(breaks, left=True)]))
     return np.stack(rows)
-
-
-def _points(functions: Sequence[Shape], domain: tuple[float, float], density: int) -> tuple[Array, Array]:
-    """Chebyshev points between all neighbouring breaks of the functions, `density` for a degree; the breaks.
-
-    A polynomial of degree d does not rise by more than a factor 1/cos(pi / (2 density)) between them.
-    """
-    start, end = domain
-    pieces = [f for f in functions if isinstance(f, Pieces)]
-    inner = {t for f in pieces for t in f.breaks if start < t < end}
-    breaks = np.array([start, *sorted(inner), end])
-    degree = max(f.degree if isinstance(f, Pieces) else len(f) - 1 for f in functions)
-    count = density * degree if degree > 1 else 1
-    nodes = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, count + 1))
-    return (breaks[:-1, None] + np.diff(breaks)[:, None] * nodes).ravel(), breaks
 
 
 def _largest_sum(amplitudes: Array, profiles: Array) -> float:

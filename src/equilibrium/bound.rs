@@ -24,7 +24,8 @@ fn bound_by_energy(section: &Section) -> f64 {
         + 0.5 * r.material.beta2 * r.mesh.dot(&r.curvature, &r.curvature)
         + r.material.twist * (r.k3 * r.k3 + r.k3_variance);
     let natural = natural * eta * eta;
-    let root = 0.5 * (natural.sqrt() + (natural + r.mismatch_squared()).sqrt());
+    let membrane = r.growth_mismatch();
+    let root = 0.5 * (natural.sqrt() + (natural + r.mesh.dot(&membrane, &membrane)).sqrt());
     24f64.sqrt() * root / (eta * eta)
 }
 
@@ -34,25 +35,26 @@ fn bound_by_energy(section: &Section) -> f64 {
 /// `w (2M + L) - (1 - D) w^2 >= (M + L - gamma)(M + gamma) >= -(L/2 - gamma)^2`, and `D_j <= 1/(mu_j k^2)`,
 ///
 /// ```text
-/// k (k + d)/12 - g q0^2/2 <= sum_j D_j (L_j/2 - gamma_j)^2 <= beta^2 (|r|/2 + |gamma33''|/|k|)^2,
+/// k (k + d)/12 - g q0^2/2 <= sum_j D_j (L_j/2 - gamma_j)^2 <= (beta |r|/2 + G(k)^(1/2))^2,   G = sum_j D_j gamma_j^2,
 /// ```
 ///
 /// `r = d22 + nu d33 - g21'` being the curvature whose double integral is `s`, and all growth scaled by the
-/// thickness ratio. The left side grows beyond `|d|/2` and the right side falls. No bound where `gamma33` is not
-/// a polynomial.
+/// thickness ratio. The left side grows beyond `|d|/2` and the right side falls. Where `gamma33` is smooth,
+/// `G <= (beta |gamma33''|/k)^2`; where it jumps, `G` is summed over the modes.
 fn bound_by_curvature(section: &Section) -> f64 {
     let r = section.reduction();
     let eta = section.eta();
     let (d, q0) = (r.d33.abs() / eta, r.k3 / eta);
-    let natural = r.mesh.dot(&r.curvature, &r.curvature).sqrt() / eta;
-    let membrane = r.gamma33_curvature / (eta * eta);
-    let excluded = |k: f64| {
-        let softness = 0.5 * natural + membrane / k;
-        k * (k - d) / 12.0 > 0.5 * r.material.twist * q0 * q0 + r.material.beta2 * softness * softness
+    let beta = r.material.beta2.sqrt();
+    let natural = 0.5 * beta * r.mesh.dot(&r.curvature, &r.curvature).sqrt() / eta;
+    let membrane = |k: f64| match section.reach() {
+        Some(reach) => reach.relaxed(&r.growth_mismatch(), k).sqrt() / (eta * eta),
+        None => beta * r.gamma33_curvature / (k * eta * eta),
     };
-    if membrane.is_infinite() {
-        return f64::INFINITY;
-    }
+    let excluded = |k: f64| {
+        let softness = natural + membrane(k);
+        k * (k - d) / 12.0 > 0.5 * r.material.twist * q0 * q0 + softness * softness
+    };
     let (mut low, mut high) = (0.0, d.max(1.0));
     while !excluded(high) && high.is_finite() {
         (low, high) = (high, 2.0 * high);

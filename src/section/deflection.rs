@@ -23,7 +23,7 @@ impl Deflection {
     pub(super) fn new(r: &Reduction, reach: Option<&Reach>, eta: f64, strain: &Strain) -> Self {
         // The energy is stationary in the deflection and takes its errors squared; the deflection itself,
         // and more so its second derivative, needs the next truncation for the same accuracy.
-        let finer = |largest| (level(strain[2] / eta, &largest) + 1).min(SIZES.len() - 1);
+        let finer = |largest: Vec<f64>| (level(strain[2] / eta, &largest) + 1).min(largest.len() - 1);
         let (u1, relaxed) = match reach {
             None => {
                 // The curvature series must hold the growth as well as the relaxed part.

@@ -23,7 +23,7 @@ pub struct GeneralLaw {
     reach: Option<Arc<Reach>>,
     mismatch: Mismatch,
     eta: f64,
-    largest: [f64; SIZES.len()],
+    largest: Vec<f64>,
     levels: [OnceLock<Vec<Group>>; SIZES.len()],
 }
 
@@ -45,22 +45,23 @@ struct Group {
 /// rounding with `n >~ (|K2|/eta)^(1/4)` of them, and `n` functions of one parity reach degree `2n`
 /// exactly. Thresholds measured against twice as many functions (see the tests).
 #[must_use]
-pub(super) fn largest_curvatures(beta2: f64, degree: usize) -> [f64; SIZES.len()] {
-    SIZES.map(|size| {
+pub(super) fn largest_curvatures(beta2: f64, degree: usize) -> Vec<f64> {
+    let largest = SIZES.iter().map(|&size| {
         let spare = size as f64 - (degree / 2) as f64 + 1.0;
         if spare < LEAST_SPARE {
             return -1.0;
         }
         // The same layer forms at K2 proportional to beta; beta = 1/3 for the incompressible material.
         3.0 * beta2.sqrt() * CURVATURE_AT_EIGHT * (spare / 8.0).powf(GROWTH_OF_CURVATURE)
-    })
+    });
+    largest.collect()
 }
 
 /// The smallest sufficient truncation, or the largest there is.
 #[must_use]
-pub(super) fn level(k2: f64, largest: &[f64; SIZES.len()]) -> usize {
+pub(super) fn level(k2: f64, largest: &[f64]) -> usize {
     let enough = largest.iter().position(|&k| k2.abs() <= k);
-    enough.unwrap_or(SIZES.len() - 1)
+    enough.unwrap_or(largest.len() - 1)
 }
 
 /// Largest `|K2|/eta` that eight functions of a parity resolve to rounding.

@@ -192,6 +192,12 @@ impl Section {
         &self.reduction
     }
 
+    /// The modes that growth with jumps reaches; `None` where there are no jumps.
+    #[must_use]
+    pub fn reach(&self) -> Option<&Reach> {
+        self.reach.as_deref()
+    }
+
     /// The relaxed part of the energy.
     #[must_use]
     pub fn relaxation(&self) -> &dyn Relaxation {

@@ -20,6 +20,7 @@ use faer::Mat;
 
 use super::Reduction;
 use super::basis::SIZES;
+use super::general::level;
 use super::mesh::{Mesh, Series};
 
 /// The reach of some growths: a start for the modes of every law whose growth is a sum of them.
@@ -28,7 +29,7 @@ pub struct Reach {
     mesh: Mesh,
     beta2: f64,
     starts: Vec<Series>,
-    levels: [OnceLock<PieceModes>; SIZES.len()],
+    levels: [OnceLock<PieceModes>; LEVELS],
 }
 
 /// Modes of one level, orthonormal over the width.
@@ -41,6 +42,9 @@ pub struct PieceModes {
     /// Curvature of each mode; empty where `sigma` is zero.
     pub left: Vec<Series>,
 }
+
+/// Levels in use: the modes of the next would take seconds to find.
+const LEVELS: usize = 4;
 
 /// Level `i` holds up to `|K2|/(beta eta)` of this: the curvatures of the smooth basis, see `general`.
 fn largest_curvature(level: usize) -> f64 {
@@ -63,14 +67,26 @@ impl Reach {
 
     /// Largest `|K2|/eta` that each level resolves to rounding.
     #[must_use]
-    pub fn largest_curvatures(&self) -> [f64; SIZES.len()] {
-        std::array::from_fn(|level| self.beta2.sqrt() * largest_curvature(level))
+    pub fn largest_curvatures(&self) -> Vec<f64> {
+        (0..LEVELS).map(|level| self.beta2.sqrt() * largest_curvature(level)).collect()
     }
 
     /// The modes of a level, computed once.
     #[must_use]
     pub fn modes(&self, level: usize) -> &PieceModes {
         self.levels[level].get_or_init(|| self.decompose(largest_curvature(level)))
+    }
+
+    /// `sum_j f_j^2/(1 + mu_j k^2)`: what of the square of a mismatch remains where it is relaxed at
+    /// `k = K2/eta`; not less than that, where `k` is beyond the last level.
+    #[must_use]
+    pub fn relaxed(&self, mismatch: &Series, k: f64) -> f64 {
+        let modes = self.modes(level(k, &self.largest_curvatures()));
+        let relaxed = |(right, sigma): (&Series, &f64)| {
+            let component = self.mesh.dot(mismatch, right);
+            component * component / (1.0 + (sigma * k).powi(2) / self.beta2)
+        };
+        modes.right.iter().zip(&modes.sigma).map(relaxed).sum()
     }
 
     /// The modes that hold up to `|K2|/(beta eta) = k`.
@@ -288,4 +304,43 @@ fn layer_functions(kh2: f64) -> usize {
         term < 1e-10
     });
     needed.unwrap_or(thin) + 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::growth::Growth;
+    use crate::material::PlaneStress;
+    use crate::piecewise::Piecewise;
+
+    /// At the largest curvature of each level the modes of the next change nothing, and they stay few
+    /// however many pieces there are.
+    #[test]
+    fn modes_are_few_and_enough() {
+        for count in [2, 5, 20] {
+            let breaks = (0..=count).map(|i| (f64::from(i) / f64::from(count)).powf(1.1) - 0.5).collect();
+            let pieces =
+                (0..count).map(|i| vec![f64::from((i * 7919) % 13), f64::from(i % 3), 1.0]).collect();
+            let steps = Piecewise::from_legendre(breaks, pieces).unwrap();
+            let growth = Growth { gamma33: steps.clone().into(), d22: steps.into(), ..Growth::default() };
+            let r = Reduction::new(&growth, &PlaneStress::incompressible());
+            let reach = Reach::new(&[&r]).unwrap();
+            for (level, most) in [(0, 20), (1, 40), (2, 100)] {
+                assert!(reach.modes(level).sigma.len() <= most, "{count} {level}");
+                let k = reach.largest_curvatures()[level];
+                let relaxed = |series: &Series, level: usize| -> f64 {
+                    let modes = reach.modes(level);
+                    let term = |(right, sigma): (&Series, &f64)| {
+                        reach.mesh.dot(series, right).powi(2) / (1.0 + (sigma * k).powi(2) / reach.beta2)
+                    };
+                    modes.right.iter().zip(&modes.sigma).map(term).sum()
+                };
+                for series in &reach.starts {
+                    let (a, b) = (relaxed(series, level), relaxed(series, level + 1));
+                    // Rounding of the singular values against the largest of them.
+                    assert!((a - b).abs() <= 2e-14 * b, "{count} {level}: {a} {b}");
+                }
+            }
+        }
+    }
 }

@@ -53,7 +53,7 @@ pub struct Reduction {
     pub curvature: Series,
     /// `gamma33`.
     pub gamma33: Series,
-    /// Norm of `gamma33''` over the width; infinite where `gamma33` is not a polynomial.
+    /// Norm of `gamma33''` over the width; infinite where growth jumps.
     pub gamma33_curvature: f64,
     /// `gamma22`.
     pub gamma22: Series,
@@ -103,11 +103,10 @@ impl Reduction {
             gamma,
             s,
             curvature,
-            gamma33_curvature: match &growth.gamma33.pieces {
-                Some(_) => f64::INFINITY,
-                None => norm(&legendre::from_monomials(&legendre::monomial_derivative(
-                    &legendre::monomial_derivative(axial),
-                ))),
+            gamma33_curvature: if mesh.is_single() {
+                norm(&legendre::derivative(&legendre::derivative(&gamma33[0])))
+            } else {
+                f64::INFINITY
             },
             gamma33,
             gamma22: mesh.profile(&growth.gamma22),
@@ -116,11 +115,10 @@ impl Reduction {
         }
     }
 
-    /// Integral over the width of the square of `gamma33` less its components on `1` and `x`.
+    /// `gamma33` less its components on `1` and `x`.
     #[must_use]
-    pub fn mismatch_squared(&self) -> f64 {
-        let parabola = self.offset * basis::PARABOLA;
-        parabola * parabola + self.mesh.dot(&self.gamma, &self.gamma)
+    pub fn growth_mismatch(&self) -> Series {
+        axpy(self.offset, &self.mesh.parabola(), &self.gamma)
     }
 
     /// Whether the mismatch is along `t` alone, so that the closed form holds.

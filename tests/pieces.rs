@@ -1,0 +1,105 @@
+//! Growth given on pieces of the width, against the same growth without pieces and against integrals.
+
+use ribbonrs::growth::{Growth, Profile};
+use ribbonrs::material::PlaneStress;
+use ribbonrs::piecewise::Piecewise;
+use ribbonrs::section::{Form, Section, Strain};
+
+/// The polynomial growth with each field given on pieces between `breaks`.
+fn cut(growth: &Growth, breaks: &[f64]) -> Growth {
+    let mut pieces = growth.clone();
+    for (name, field) in growth.fields() {
+        if !field.polynomial.is_empty() {
+            let whole = whole(&field.polynomial).refined(breaks);
+            *pieces.field_mut(name).unwrap() = Profile::from(whole);
+        }
+    }
+    pieces
+}
+
+/// A polynomial in `x` of degree 4 at most as a single piece.
+fn whole(c: &[f64]) -> Piecewise {
+    let at = |k: usize| c.get(k).copied().unwrap_or(0.0) / 2f64.powi(k as i32);
+    let legendre = vec![
+        at(0) + at(2) / 3.0 + at(4) / 5.0,
+        at(1) + at(3) * 0.6,
+        at(2) * 2.0 / 3.0 + at(4) * 4.0 / 7.0,
+        at(3) * 0.4,
+        at(4) * 8.0 / 35.0,
+    ];
+    Piecewise::from_legendre(vec![-0.5, 0.5], vec![legendre]).unwrap()
+}
+
+fn every_field(eta: f64) -> Growth {
+    let e2 = eta * eta;
+    Growth {
+        gamma33: [0.3, -1.0, 12.0, 5.0, -20.0].map(|c| c * e2).to_vec().into(),
+        d33: [0.8, 1.5, -2.0].map(|c| c * eta).to_vec().into(),
+        d22: [-0.4, 0.7].map(|c| c * eta).to_vec().into(),
+        d23: [0.6, -1.0, 3.0].map(|c| c * eta).to_vec().into(),
+        g21: [0.1, 0.5, -0.8, 2.0].map(|c| c * eta).to_vec().into(),
+        g31: [0.0, 0.3, 1.1].map(|c| c * eta).to_vec().into(),
+        gamma22: vec![e2].into(),
+        gamma23: vec![0.0, e2].into(),
+    }
+}
+
+#[test]
+fn pieces_of_a_polynomial_are_the_polynomial() {
+    for (stiffness, eta) in
+        [(PlaneStress::incompressible(), 0.1), (PlaneStress::new(3.0, 1.2, 0.5, 0.4).unwrap(), 0.03)]
+    {
+        let growth = every_field(eta);
+        let law = Section::new(eta, &growth, &stiffness, Form::General).unwrap();
+        for breaks in
+            [vec![-0.5, 0.5], vec![-0.5, 0.123, 0.5], (0..=40).map(|i| f64::from(i) / 40.0 - 0.5).collect()]
+        {
+            let pieces = Section::new(eta, &cut(&growth, &breaks), &stiffness, Form::General).unwrap();
+            for k2 in [0.0, 1e-6, 0.5, -3.0, 20.0, 100.0, -1e3, 1e4] {
+                let strain = Strain::new(0.2 * eta * eta, 0.1 * eta * eta, k2 * eta, 1.5 * eta);
+                let (a, b) = (law.evaluate(&strain), pieces.evaluate(&strain));
+                // Rounding of the growth's series against the energy of a mismatch this large.
+                assert!(
+                    (a.energy - b.energy).abs() <= 1e-13 * a.energy,
+                    "{} {k2}: {} {}",
+                    breaks.len(),
+                    a.energy,
+                    b.energy
+                );
+                for i in 0..4 {
+                    let scale = (a.energy * a.hessian[(i, i)].abs()).sqrt();
+                    assert!(
+                        (a.gradient[i] - b.gradient[i]).abs() <= 1e-12 * scale,
+                        "{} {k2} {i}: {} {}",
+                        breaks.len(),
+                        a.gradient[i],
+                        b.gradient[i]
+                    );
+                    for j in 0..4 {
+                        let scale = (a.hessian[(i, i)] * a.hessian[(j, j)]).abs().sqrt();
+                        assert!(
+                            (a.hessian[(i, j)] - b.hessian[(i, j)]).abs() <= 1e-11 * scale,
+                            "{} {k2} {i}{j}",
+                            breaks.len()
+                        );
+                    }
+                }
+                let (u, v) = (law.deflection(&strain).unwrap(), pieces.deflection(&strain).unwrap());
+                let (p, q) = (law.in_plane(&strain, &u), pieces.in_plane(&strain, &v));
+                for x in [-0.5, -0.31, 0.0, 0.123, 0.4, 0.5] {
+                    for (a, b, scale) in [
+                        (u.u1(x), v.u1(x), eta),
+                        (u.slope(x), v.slope(x), eta * k2.abs().sqrt().max(1.0)),
+                        (u.curvature(x), v.curvature(x), eta * k2.abs().max(1.0)),
+                        (p.u2(x), q.u2(x), eta * eta * k2.abs().max(1.0)),
+                        (p.u3(x), q.u3(x), eta * eta * k2.abs().sqrt().max(1.0)),
+                    ] {
+                        // At the last level the deflection has no finer modes than the energy, whose error is its square.
+                        let tolerance = if k2 < 5e3 { 1e-11 } else { 1e-9 };
+                        assert!((a - b).abs() <= tolerance * scale, "{} {k2} {x}: {a} {b}", breaks.len());
+                    }
+                }
+            }
+        }
+    }
+}

@@ -15,14 +15,13 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import BaseModel, BeforeValidator, Discriminator, ValidationError, model_validator
-from pydantic_core import ErrorDetails, PydanticCustomError
+from pydantic import Discriminator, ValidationError
+from pydantic_core import ErrorDetails
 
-from . import growth as growths
 from .check import numbers
 from .ends import Clamped, Free
 from .errors import MISSING, InputError, shown
-from .growth import Growth
+from .growthtable import SAMPLES, Along, GrowthTable, Table
 from .material import Isotropic, MooneyRivlin, Orthotropic
 from .ribbon import Ribbon
 from .scene import Scene
@@ -56,7 +55,9 @@ class Job:
 
 
 def read(path: str | os.PathLike[str]) -> Job:
-    """Read and check a scene file; files to write are relative to the current directory.
+    """Read and check a scene file.
+
+    Files to read are relative to the directory of the scene file, files to write to the current one.
 
     Raises
     ------
@@ -65,7 +66,7 @@ def read(path: str | os.PathLike[str]) -> Job:
     """
     tables = _parse(path)
     try:
-        return _SceneTable.model_validate(tables).make()
+        return _SceneTable.model_validate(tables).make(Path(path).parent)
     except ValidationError as error:
         details = error.errors(include_url=False)
         # A misspelt key is also a missing one: name the misspelling.
@@ -88,77 +89,15 @@ def _parse(path: str | os.PathLike[str]) -> dict[str, Any]:
         raise InputError(field, name, f"TOML, not: {error}") from None
 
 
-class _Table(BaseModel):
-    """A table of known keys. A value of type Any is checked by the class it is for."""
-
-    @model_validator(mode="before")
-    @classmethod
-    def _known_keys(cls, data: object) -> object:
-        for key, value in data.items() if isinstance(data, dict) else ():
-            if key not in cls.model_fields:
-                context = {"key": key, "value": value, "known": list(cls.model_fields)}
-                raise PydanticCustomError("unknown_key", "unknown key", context)
-        return data
-
-    def given(self) -> dict[str, Any]:
-        """The keys in the file, apart from `kind`, and their values."""
-        given = self.model_fields_set - {"kind"}
-        return {key: getattr(self, key) for key in type(self).model_fields if key in given}
-
-
-class _RibbonTable(_Table):
+class _RibbonTable(Table):
     length: Any
     width: Any
     thickness: Any
+    width_profile: Along = None
+    thickness_profile: Along = None
 
 
-class _ThicknessTable(_Table):
-    xi: Any
-    transverse: Any = None
-
-
-class _ProfileTable(_Table):
-    name: Any = None
-    amplitude: Any = None
-    gamma33: Any = None
-    d33: Any = None
-    d22: Any = None
-    d23: Any = None
-    g21: Any = None
-    g31: Any = None
-    gamma22: Any = None
-    gamma23: Any = None
-
-
-def _as_table(value: object) -> object:
-    return value if isinstance(value, dict) else {"xi": value}
-
-
-def _as_list(value: object) -> object:
-    return value if isinstance(value, list) else [value]
-
-
-class _GrowthTable(_Table):
-    edge: Any = None
-    thickness: Annotated[_ThicknessTable, BeforeValidator(_as_table)] | None = None
-    chiral: Any = None
-    profile: Annotated[list[_ProfileTable], BeforeValidator(_as_list)] = []
-
-    def make(self) -> Growth:
-        terms = []
-        if self.edge is not None:
-            terms.append(growths.edge(self.edge))
-        if self.thickness is not None:
-            terms.append(growths.thickness(**self.thickness.given()))
-        if self.chiral is not None:
-            terms.append(growths.chiral(self.chiral))
-        terms.extend(growths.Profile(**profile.given()) for profile in self.profile)
-        if not terms:
-            raise InputError("growth", {}, f"at least one of {', '.join(type(self).model_fields)}")
-        return sum(terms[1:], start=terms[0])
-
-
-class _Kind(_Table):
+class _Kind(Table):
     """A table whose `kind` says which class the other keys are for."""
 
     makes: ClassVar[Callable[..., Any]]
@@ -214,7 +153,7 @@ _KINDS = {
 }
 
 
-class _TraceTable(_Table):
+class _TraceTable(Table):
     parameter: Any
     span: Any
 
@@ -226,7 +165,7 @@ class _TraceTable(_Table):
             raise InputError("trace.span", self.span, "two finite numbers")
 
 
-class _OutputTable(_Table):
+class _OutputTable(Table):
     figure: Any = None
     surface: Any = None
     data: Any = None
@@ -256,22 +195,22 @@ def _output(field: str, name: object, suffixes: tuple[str, ...]) -> Output:
     return Output(field, path)
 
 
-class _SceneTable(_Table):
+class _SceneTable(Table):
     ribbon: _RibbonTable
     material: _MaterialTable | None = None
-    growth: _GrowthTable
+    growth: GrowthTable
     start: _EndTable | None = None
     end: _EndTable | None = None
     law: Any = None
     trace: _TraceTable | None = None
     output: _OutputTable = _OutputTable()
 
-    def make(self) -> Job:
+    def make(self, directory: Path) -> Job:
         given = self.given()
         ribbon = self.ribbon.given()
         if self.material is not None:
             ribbon["material"] = self.material.make()
-        arguments: dict[str, Any] = {"ribbon": Ribbon(**ribbon), "growth": self.growth.make()}
+        arguments: dict[str, Any] = {"ribbon": Ribbon(**ribbon), "growth": self.growth.make(directory)}
         for end in ("start", "end"):
             if end in given:
                 arguments[end] = _end(end, given[end])
@@ -298,7 +237,7 @@ def _input_error(detail: ErrorDetails) -> InputError:
     table, *rest = detail["loc"] or ("",)
     if table in _KINDS:
         rest = rest[1:]  # pydantic adds the kind chosen
-    loc = (table, *rest) if table else ()
+    loc = tuple(step for step in (table, *rest) if step != SAMPLES) if table else ()
     if kind == "unknown_key":
         key, known = detail["ctx"]["key"], detail["ctx"]["known"]
         nearest = get_close_matches(key, known, n=1, cutoff=0.0)[0]

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 import ribbonrs as rb
-from ribbonrs import scenefile
+from ribbonrs import growthtable, scenefile
 from ribbonrs.scenefile import read
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -13,6 +13,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 RIBBON = "[ribbon]\nlength = 10.0\nwidth = 1.0\nthickness = 0.1\n"
 GROWTH = "[growth]\nedge = 0.06\n"
 SCENE = RIBBON + GROWTH
+LEAF = "x, g33\n-0.5, 0.01\n0.5, 0.02\n"
 
 
 @pytest.fixture
@@ -58,12 +59,12 @@ def test_example_equals_its_python_objects(tmp_path, monkeypatch):
 def test_documented_file_has_every_key_and_is_read(job):
     text = (EXAMPLES.parent / "docs" / "scene-files.md").read_text()
     block = text.split("```toml\n")[1].split("```")[0]
+    Path("leaf.csv").write_text(LEAF)
     read = job(block)
-    assert [term.name for term in read.scene.growth.terms] == ["edge", "thickness", "chiral", "vein"]
+    assert [t.name for t in read.scene.growth.terms] == ["edge", "thickness", "chiral", "vein", "measured"]
     assert len(read.outputs) == 4
-    tables = [
-        name for name in vars(scenefile).values() if isinstance(name, type) and hasattr(name, "model_fields")
-    ]
+    known = [*vars(scenefile).values(), *vars(growthtable).values()]
+    tables = [name for name in known if isinstance(name, type) and hasattr(name, "model_fields")]
     for key in {key for table in tables for key in table.model_fields}:
         assert key in block
 
@@ -102,8 +103,70 @@ def test_every_growth(job):
     assert job(RIBBON + "[growth]" + text).scene.growth == growth
 
 
+def test_growth_that_varies_along_the_ribbon(job):
+    text = """
+    edge = {S = [0, 10], values = [0.01, 0.05]}
+    thickness = {xi = {S = [0, 5, 5, 10], values = [0, 0, 0.1, 0.1]}, transverse = -0.02}
+    chiral = {S = [0, 10], values = [0, 0.03]}
+    [growth.profile]
+    amplitude = {S = [0, 10], values = [1, 2]}
+    gamma33 = [0.0, 0.01]
+    """
+    growth = rb.growth.edge(([0, 10], [0.01, 0.05]))
+    growth += rb.growth.thickness(([0, 5, 5, 10], [0, 0, 0.1, 0.1]), transverse=-0.02)
+    growth += rb.growth.chiral(([0, 10], [0, 0.03]))
+    growth += rb.growth.Profile(gamma33=[0.0, 0.01], amplitude=([0, 10], [1, 2]))
+    assert job(RIBBON + "[growth]" + text).scene.growth == growth
+
+
+def test_growth_in_pieces_and_samples(job):
+    text = """
+    [growth.profile]
+    breaks = [0.1]
+    spline = true
+    gamma33 = [[0.0], [0.02, 0.1]]
+    d22 = {x = [-0.5, -0.3, -0.1, 0.1, 0.1, 0.2, 0.3, 0.5], values = [0, 0.1, 0, 0.2, 0.3, 0, 0.1, 0]}
+    """
+    x = [-0.5, -0.3, -0.1, 0.1, 0.1, 0.2, 0.3, 0.5]
+    growth = rb.growth.Profile(
+        gamma33=[[0.0], [0.02, 0.1]],
+        d22=(x, [0, 0.1, 0, 0.2, 0.3, 0, 0.1, 0]),
+        breaks=[0.1],
+        spline=True,
+    )
+    assert job(RIBBON + "[growth]" + text).scene.growth == growth
+
+
+def test_growth_from_a_table_beside_the_scene(tmp_path, monkeypatch):
+    (tmp_path / "scenes").mkdir()
+    (tmp_path / "scenes" / "leaf.csv").write_text(LEAF)
+    scene = tmp_path / "scenes" / "leaf.toml"
+    monkeypatch.chdir(tmp_path)
+    growth = rb.growth.from_csv("scenes/leaf.csv")
+    for text in ('csv = "leaf.csv"', 'csv = { path = "leaf.csv" }'):
+        scene.write_text(RIBBON + "[growth]\n" + text)
+        assert read(scene).scene.growth == growth
+        assert read("scenes/leaf.toml").scene.growth == growth
+    scene.write_text(RIBBON + '[growth]\ncsv = { path = "leaf.csv", name = "leaf", width = 2, breaks = [0] }')
+    with pytest.raises(rb.InputError) as caught:
+        read(scene)
+    assert str(caught.value).startswith("growth.csv, gamma33.x")
+
+
+def test_dimensions_along_the_ribbon(job):
+    text = "width_profile = {S = [0, 10], values = [1, 0.5]}\n"
+    text += "thickness_profile = {S = [0, 10], values = [1, 0.8]}\n"
+    ribbon = rb.Ribbon(
+        10.0, 1.0, 0.1, width_profile=([0, 10], [1, 0.5]), thickness_profile=([0, 10], [1, 0.8])
+    )
+    assert job(RIBBON + text + GROWTH).scene.ribbon == ribbon
+
+
 def test_short_forms_of_growth(job):
     assert job(RIBBON + "[growth]\nthickness = 0.02").scene.growth == rb.growth.thickness(0.02)
+    samples = "{S = [0, 10], values = [0, 0.1]}"
+    along = rb.growth.thickness(([0, 10], [0, 0.1]))
+    assert job(RIBBON + f"[growth]\nthickness = {samples}").scene.growth == along
     assert job(RIBBON + "[growth.profile]\nd22 = [0.1]").scene.growth == rb.growth.Profile(d22=[0.1])
 
 
@@ -139,7 +202,8 @@ def test_windows_text(job):
         # unknown keys, with the nearest known one
         (
             SCENE.replace("length", "lenght"),
-            "ribbon.lenght = 10.0: expected one of length, width, thickness; the nearest is length",
+            "ribbon.lenght = 10.0: expected one of length, width, thickness, width_profile, "
+            "thickness_profile; the nearest is length",
         ),
         (
             SCENE.replace("[growth]", "[grwoth]"),
@@ -152,12 +216,24 @@ def test_windows_text(job):
         ),
         (
             SCENE + '[[growth.profile]]\nname = "a"\n[[growth.profile]]\ngamma3 = 1',
-            "growth.profile[1].gamma3 = 1: expected one of name, amplitude, gamma33, d33, d22, d23, g21, "
-            "g31, gamma22, gamma23; the nearest is gamma33",
+            "growth.profile[1].gamma3 = 1: expected one of name, amplitude, breaks, spline, gamma33, d33, "
+            "d22, d23, g21, g31, gamma22, gamma23; the nearest is gamma33",
         ),
         (
             SCENE + '[output]\n"sur\\nface" = 1',
             "output.'sur\\nface' = 1: expected one of figure, surface, data; the nearest is surface",
+        ),
+        (
+            RIBBON + "[growth]\nedge = {S = [0, 1], value = [0, 1]}",
+            "growth.edge.value = [0, 1]: expected one of S, values; the nearest is values",
+        ),
+        (
+            RIBBON + "width_profile = {x = [0, 1], values = [0, 1]}\n" + GROWTH,
+            "ribbon.width_profile.x = [0, 1]: expected one of S, values; the nearest is ",
+        ),
+        (
+            RIBBON + '[growth]\ncsv = {file = "leaf.csv"}',
+            "growth.csv.file = 'leaf.csv': expected one of path, name, width, breaks, spline; the nearest",
         ),
         # missing keys and tables
         (RIBBON, "growth is missing: expected a table"),
@@ -169,7 +245,12 @@ def test_windows_text(job):
         ),
         (SCENE + '[material]\nkind = "mooney-rivlin"\nc1 = 1', "material.c2 is missing: expected a value"),
         (SCENE + '[trace]\nparameter = "growth.edge.amplitude"', "trace.span is missing: expected a value"),
-        (RIBBON + "[growth]", "growth = {}: expected at least one of edge, thickness, chiral, profile"),
+        (RIBBON + "[growth]\ncsv = {}", "growth.csv.path is missing: expected a value"),
+        (
+            RIBBON + "[growth.profile]\ngamma33 = {x = [0, 1]}",
+            "growth.profile[0].gamma33.values is missing: expected a value",
+        ),
+        (RIBBON + "[growth]", "growth = {}: expected at least one of edge, thickness, chiral, profile, csv"),
         (
             RIBBON + "[growth.profile]",
             "growth.profile = {}: expected at least one of gamma33, d33, d22, d23, g21, g31, gamma22, ",
@@ -207,6 +288,47 @@ def test_windows_text(job):
             "growth.size = 0.7: expected at most 0.5, since the theory is for small",
         ),
         (SCENE + "thickness = [1]", "growth.thickness.xi = [1]: expected a finite number"),
+        (
+            RIBBON + "[growth]\nedge = {S = 1, values = 2}",
+            "growth.edge.S = [1]: expected at least 2 samples",
+        ),
+        (
+            RIBBON + "[growth]\nedge = {S = [0, 1, 0.5], values = [0, 1, 2]}",
+            "growth.edge.S[2] = 0.5: expected ascending numbers, after 1.0",
+        ),
+        (
+            RIBBON + "[growth]\nchiral = {S = [0, 1], values = [0, nan]}",
+            "growth.chiral.values[1] = nan: expected a list of finite numbers",
+        ),
+        (
+            RIBBON + "[growth.profile]\ngamma33 = {x = 0.1, values = 0.2}",
+            "growth.profile.gamma33.x = [0.1]: expected at least 2 samples",
+        ),
+        (
+            RIBBON + "[growth.profile]\ngamma33 = [[0], [1]]",
+            "growth.profile.gamma33 = [[0], [1]]: expected one polynomial for each of the pieces that",
+        ),
+        (
+            RIBBON + "[growth.profile]\ngamma33 = [0]\nbreaks = [0.6]",
+            "growth.profile.breaks[0] = 0.6: expected a number inside (-1/2, 1/2)",
+        ),
+        (
+            RIBBON + "[growth.profile]\ngamma33 = [0]\nspline = 1",
+            "growth.profile.spline = 1: expected true or false",
+        ),
+        (
+            RIBBON + "width_profile = {S = [0, 9], values = [1, 1]}\n" + GROWTH,
+            "ribbon.width_profile = (0.0, 9.0): expected samples from S = 0 to S = 10.0",
+        ),
+        (
+            RIBBON + "width_profile = 2\n" + GROWTH,
+            "ribbon.width_profile = 2: expected samples (S, values) or a function of S",
+        ),
+        (
+            RIBBON + '[growth]\ncsv = "none.csv"',
+            "growth.csv = 'none.csv': expected a readable file, not: No such file or directory",
+        ),
+        (RIBBON + "[growth]\ncsv = 3", "growth.csv = 3: expected the name of a file"),
         (
             SCENE + '[growth.profile]\nname = "edge"\nd33 = [1]',
             "growth.name = 'edge': expected a different name for each growth of a sum",

@@ -1,0 +1,141 @@
+"""The tables of a scene file that say how the ribbon grows, and what all tables have in common.
+
+pydantic checks which keys there are, here as in `ribbonrs.scenefile`.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import BaseModel, BeforeValidator, Discriminator, Tag, model_validator
+from pydantic_core import PydanticCustomError
+
+from . import growth as growths
+from .errors import InputError
+from .growth import Growth
+
+__all__ = ["SAMPLES", "Along", "GrowthTable", "Table"]
+
+
+class Table(BaseModel):
+    """A table of known keys. A value of type Any is checked by the class it is for."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _known_keys(cls, data: object) -> object:
+        for key, value in data.items() if isinstance(data, dict) else ():
+            if key not in cls.model_fields:
+                context = {"key": key, "value": value, "known": list(cls.model_fields)}
+                raise PydanticCustomError("unknown_key", "unknown key", context)
+        return data
+
+    def given(self) -> dict[str, Any]:
+        """The keys in the file, apart from `kind`, and their values."""
+        given = self.model_fields_set - {"kind"}
+        values = {key: getattr(self, key) for key in type(self).model_fields if key in given}
+        return {key: v.pair() if isinstance(v, _Samples) else v for key, v in values.items()}
+
+
+def _as_list(value: object) -> object:
+    return value if isinstance(value, list) else [value]
+
+
+class _Samples(Table):
+    """Samples: TOML has no tuples."""
+
+    def pair(self) -> tuple[Any, ...]:
+        """Places and values as Python takes them: sequences, for two numbers would be a polynomial."""
+        return tuple(_as_list(getattr(self, key)) for key in type(self).model_fields)
+
+
+class _AcrossSamples(_Samples):
+    x: Any
+    values: Any
+
+
+class _AlongSamples(_Samples):
+    S: Any
+    values: Any
+
+
+def _tag(value: object) -> str:
+    return SAMPLES if isinstance(value, dict) else "value"
+
+
+SAMPLES = "<samples>"
+"""What pydantic adds to the path of a key in a table of samples."""
+
+Across = Annotated[
+    Annotated[_AcrossSamples, Tag(SAMPLES)] | Annotated[Any, Tag("value")], Discriminator(_tag)
+]
+Along = Annotated[Annotated[_AlongSamples, Tag(SAMPLES)] | Annotated[Any, Tag("value")], Discriminator(_tag)]
+
+
+class _ThicknessTable(Table):
+    xi: Along
+    transverse: Along = None
+
+
+class _ProfileTable(Table):
+    name: Any = None
+    amplitude: Along = None
+    breaks: Any = None
+    spline: Any = None
+    gamma33: Across = None
+    d33: Across = None
+    d22: Across = None
+    d23: Across = None
+    g21: Across = None
+    g31: Across = None
+    gamma22: Across = None
+    gamma23: Across = None
+
+
+class _CsvTable(Table):
+    path: Any
+    name: Any = None
+    width: Any = None
+    breaks: Any = None
+    spline: Any = None
+
+    def make(self, directory: Path) -> Growth:
+        given = self.given()
+        if isinstance(self.path, str):
+            given["path"] = directory / self.path
+        return growths.from_csv(**given)
+
+
+def _as_thickness(value: object) -> object:
+    return value if isinstance(value, dict) and not {"S", "values"} & value.keys() else {"xi": value}
+
+
+def _as_csv(value: object) -> object:
+    return value if isinstance(value, dict) else {"path": value}
+
+
+class GrowthTable(Table):
+    """The table [growth]."""
+
+    edge: Along = None
+    thickness: Annotated[_ThicknessTable, BeforeValidator(_as_thickness)] | None = None
+    chiral: Along = None
+    profile: Annotated[list[_ProfileTable], BeforeValidator(_as_list)] = []
+    csv: Annotated[_CsvTable, BeforeValidator(_as_csv)] | None = None
+
+    def make(self, directory: Path) -> Growth:
+        """Return the sum of all that is in the table; files are relative to `directory`."""
+        given = self.given()
+        terms = []
+        if self.edge is not None:
+            terms.append(growths.edge(given["edge"]))
+        if self.thickness is not None:
+            terms.append(growths.thickness(**self.thickness.given()))
+        if self.chiral is not None:
+            terms.append(growths.chiral(given["chiral"]))
+        terms.extend(growths.Profile(**profile.given()) for profile in self.profile)
+        if self.csv is not None:
+            terms.append(self.csv.make(directory))
+        if not terms:
+            raise InputError("growth", {}, f"at least one of {', '.join(type(self).model_fields)}")
+        return sum(terms[1:], start=terms[0])

@@ -26,7 +26,7 @@ EPS = float(np.finfo(np.float64).eps)
 COUNTS = (9, 17, 33, 65, 129, 257)
 """Points tried on a piece of the width."""
 
-CHECKS = 1025
+CHECKS = 2049
 """Points at which a series must meet the function on a piece of the width."""
 
 LOCAL_COUNTS, LOCAL_CHECKS = (9, 17, 33), 513
@@ -80,7 +80,7 @@ def called(field: str, function: Function, points: Array, variable: str) -> Arra
 def fitted(field: str, function: Function, edges: Sequence[float]) -> Pieces:
     """Return a function of x as one series on each piece between `edges`, to rounding of its largest value.
 
-    It is called at 9, 17, ... 257 points within each piece until the series meets it at a thousand others.
+    It is called at 9, 17, ... 257 points within each piece until the series meets it at two thousand others.
 
     Raises
     ------
@@ -143,8 +143,12 @@ def _rule(count: int) -> tuple[Array, Array]:
 
 @lru_cache(maxsize=16)
 def _checks(count: int) -> Array:
-    """Points (n,) in (-1, 1) that share no symmetry and no period: multiples of the golden ratio."""
-    return np.asarray(2.0 * np.mod(np.arange(1, count + 1) * (0.5 * 5.0**0.5 - 0.5), 1.0) - 1.0)
+    """Points (n,) in (-1, 1), denser towards the ends, that share no symmetry and no period.
+
+    The angles of their cosines are multiples of the golden ratio.
+    """
+    angles = np.pi * np.mod(np.arange(1, count + 1) * (0.5 * 5.0**0.5 - 0.5), 1.0)
+    return np.asarray(np.cos(angles), dtype=np.float64)
 
 
 def _between(xi: Array, a: float, b: float) -> Array:
@@ -217,7 +221,8 @@ def _pinned(call: _Call, a: float, b: float, size: float) -> tuple[float, float]
     until all fit to rounding. What lies where two halves meet is inside the third.
     """
     xi, misses = _low_degree()
-    while b - a > 64.0 * EPS * max(abs(a), abs(b)):
+    least = EPS * (b - a)
+    while b - a > max(64.0 * EPS * max(abs(a), abs(b)), least):
         w = b - a
         halves = ((a, a + 0.5 * w), (a + 0.25 * w, a + 0.75 * w), (a + 0.5 * w, b))
         points = np.stack([_between(xi, *half) for half in halves])
@@ -237,8 +242,11 @@ def _division(call: _Call, a: float, b: float, length: float, size: float) -> tu
     if hi - lo > SHARP * length:  # smooth when seen from near enough
         return 0.5 * (a + b), False
     place = 0.5 * (lo + hi)
-    before, after = call(np.array([lo, hi]))
-    return place, bool(abs(after - before) > 1e-10 * size or min(place - a, b - place) < SHARP * length)
+    before, across, after = np.abs(
+        np.diff(call(np.array([max(a, 2 * lo - hi), lo, hi, min(b, 2 * hi - lo)])))
+    )
+    jump = across > 1e-10 * size + 10.0 * (before + after)
+    return place, bool(jump or min(place - a, b - place) < SHARP * length)
 
 
 def _unresolved(call: _Call, a: float, b: float, checks: Array, size: float) -> str:

@@ -212,7 +212,7 @@ def _lines(path: str | os.PathLike[str]) -> Iterator[tuple[int, list[str]]]:
     for i, line in enumerate(io.StringIO(text, newline=None), 1):
         if line.strip() and not line.lstrip().startswith("#"):
             try:
-                yield i, [cell.strip() for cell in next(csv.reader([line]))]
+                yield i, [cell.strip() for cell in next(csv.reader([line], skipinitialspace=True))]
             except csv.Error as error:
                 expected = f"comma-separated values, not: {error}"
                 raise InputError(f"growth.csv line {i}", line, expected) from None

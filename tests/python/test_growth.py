@@ -14,12 +14,36 @@ amplitudes = st.floats(-0.1, 0.1)
 coefficients = st.lists(st.floats(-1.0, 1.0), min_size=1, max_size=33)
 
 
+def fields(growth, x=0.25):
+    """The growth fields at x, as numbers."""
+    return {name: float(value) for name, value in growth.values(x).items()}
+
+
 def test_the_kinds_of_growth():
-    assert rb.growth.edge(0.06).fields() == {"gamma33": [0.0, 0.0, 0.24]}
-    assert rb.growth.thickness(0.3).fields() == {"d33": [0.3]}
-    assert rb.growth.thickness(0.3, transverse=-0.15).fields() == {"d33": [0.3], "d22": [-0.15]}
-    assert rb.growth.thickness(0.0, transverse=0.2).fields() == {"d22": [0.2]}
-    assert rb.growth.chiral(-0.04).fields() == {"d23": [-0.04]}
+    assert fields(rb.growth.edge(0.06)) == {"gamma33": 0.015}
+    assert fields(rb.growth.thickness(0.3)) == {"d33": 0.3}
+    assert fields(rb.growth.thickness(0.3, transverse=-0.15)) == {"d33": 0.3, "d22": -0.15}
+    assert fields(rb.growth.thickness(0.0, transverse=0.2)) == {"d22": 0.2}
+    assert fields(rb.growth.chiral(-0.04)) == {"d23": -0.04}
+
+
+def test_the_core_takes_polynomials_as_they_are():
+    growth = rb.growth.edge(0.06) + rb.growth.Profile(d33=[0.0, 1.0], g21=(0.5,), amplitude=0.1)
+    assert growth.core_terms() == [
+        (0.06, {"gamma33": [0.0, 0.0, 4.0]}),
+        (0.1, {"d33": [0.0, 1.0], "g21": [0.5]}),
+    ]
+    assert growth.core_terms(10.0) == growth.core_terms()
+    assert not growth.varies
+    assert growth.domain is None
+    growth.check_covers(1e8)
+
+
+def test_the_core_takes_pieces_as_legendre_series():
+    growth = rb.growth.Profile(gamma33=[[0.0], [0.02, 1.0]], breaks=[0.0], amplitude=([0.0, 8.0], [1.0, 3.0]))
+    ((amplitude, shape),) = growth.core_terms()
+    assert amplitude == ([0.0, 8.0], [[2.0, 1.0]])
+    assert shape == {"gamma33": ([-0.5, 0.0, 0.5], [[0.0], [0.27, 0.25]])}
 
 
 def test_the_amplitude_is_the_parameter():
@@ -31,12 +55,11 @@ def test_the_amplitude_is_the_parameter():
         ("thickness", 0.1),
         ("profile", 0.5),
     ]
-    assert growth.fields()["g21"] == [0.5, 1.0]
+    assert growth.values([0.0, 0.5])["g21"].tolist() == [0.5, 1.0]
 
 
 def test_edge_growth_is_xi_at_the_edges():
-    values = np.polynomial.polynomial.polyval([-0.5, 0.0, 0.5], rb.growth.edge(0.06).fields()["gamma33"])
-    assert values.tolist() == [0.06, 0.0, 0.06]
+    assert rb.growth.edge(0.06).values([-0.5, 0.0, 0.5])["gamma33"].tolist() == [0.06, 0.0, 0.06]
 
 
 @given(st.lists(st.tuples(st.sampled_from(FIELDS), coefficients, amplitudes), min_size=1, max_size=4))
@@ -45,12 +68,11 @@ def test_sums_add_field_by_field(parts):
         rb.growth.Profile(**{field: list(c)}, amplitude=a, name=f"p{i}")
         for i, (field, c, a) in enumerate(parts)
     ]
-    total = sum(terms).fields()
-    assert set(total) == {field for field, _, _ in parts}
     x = np.linspace(-0.5, 0.5, 7)
-    for field in total:
+    total = sum(terms).values(x)
+    assert set(total) == {field for field, _, _ in parts}
+    for field, found in total.items():
         expected = sum(a * np.polynomial.polynomial.polyval(x, c) for f, c, a in parts if f == field)
-        found = np.polynomial.polynomial.polyval(x, total[field])
         # At most 4 terms of size 0.1 * 2 each, every one rounded a few times.
         assert found == pytest.approx(expected, abs=1e-15)
 
@@ -76,8 +98,9 @@ def test_sums_leave_their_parts_alone():
     both = edge + chiral
     assert both == sum([edge, chiral])
     assert edge == rb.growth.edge(0.06)
-    both.fields()["gamma33"].append(1.0)
-    assert both.fields()["gamma33"] == [0.0, 0.0, 0.24]
+    both.core_terms()[0][1]["gamma33"].append(1.0)
+    both.values([0.5])["gamma33"][0] = 1.0
+    assert both.core_terms()[0] == (0.06, {"gamma33": [0.0, 0.0, 4.0]})
     with pytest.raises(TypeError):
         edge + 1.0
     with pytest.raises(TypeError):
@@ -87,7 +110,7 @@ def test_sums_leave_their_parts_alone():
 def test_names_in_a_sum_differ():
     refuses("growth.name", lambda: rb.growth.edge(0.1) + rb.growth.edge(0.1))
     two = rb.growth.edge(0.1) + rb.growth.edge(0.1, name="margin")
-    assert two.fields() == {"gamma33": [0.0, 0.0, 0.8]}
+    assert fields(two, 0.5) == {"gamma33": 0.2}
 
 
 @pytest.mark.parametrize("name", ["", "a b", "a.b", "a\nb", 3, None, b"x", "1st"])
@@ -129,6 +152,26 @@ def test_profile_needs_a_field():
     refuses("growth.profile", lambda: rb.growth.Profile())
 
 
+@pytest.mark.parametrize("value", ["0.1", None, [0.1, math.nan], 1j, [[0.1], [0.1, 0.2]], True])
+def test_values_are_asked_for_at_numbers(value):
+    with pytest.raises(rb.InputError, match=r"^x"):
+        rb.growth.edge(0.1).values(value)
+    with pytest.raises(rb.InputError, match=r"^S"):
+        rb.growth.edge(0.1).values(0.1, value)
+
+
+def test_size_of_pieces_is_that_of_both_sides_of_a_jump():
+    growth = rb.growth.Profile(gamma33=[[0.0, 3.0], [0.02]], breaks=[0.1])
+    assert growth.size(0.1) == pytest.approx(1.5, rel=1e-15)
+    growth = rb.growth.Profile(gamma33=[[0.02], [0.0, 3.0], [0.02]], breaks=[-0.05, 0.1])
+    assert growth.size(0.1) == pytest.approx(0.3, rel=1e-15)
+    beside = growth + rb.growth.Profile(gamma33=[[0.1], [0.0]], breaks=[0.1], name="half")
+    assert beside.size(0.1) == pytest.approx(0.4, rel=1e-15)
+
+
 def test_overflowing_sums_are_refused():
+    refuses(
+        "growth.gamma33", lambda: rb.growth.Profile(gamma33=[[1e308], [-1.5e308]], breaks=[0.0], amplitude=9)
+    )
     refuses("growth.gamma33", lambda: rb.growth.edge(1e308))
     refuses("growth.d33", lambda: rb.growth.Profile(d33=[1e300], amplitude=1e300))

@@ -89,6 +89,9 @@ impl Piecewise {
     /// The same function with further breaks, which lie within its range.
     #[must_use]
     pub fn refined(&self, breaks: &[f64]) -> Self {
+        if self.breaks == breaks {
+            return self.clone();
+        }
         let pieces = breaks.windows(2).map(|w| self.series_on(w[0], w[1])).collect();
         Self { breaks: breaks.to_vec(), pieces }
     }
@@ -127,6 +130,9 @@ impl Piecewise {
 /// All breaks of both, ascending; those that differ by rounding are one.
 #[must_use]
 pub fn union(a: &[f64], b: &[f64]) -> Vec<f64> {
+    if a == b || b.is_empty() {
+        return a.to_vec();
+    }
     let mut all: Vec<f64> = a.iter().chain(b).copied().collect();
     all.sort_by(f64::total_cmp);
     let least = 1e-14 * all.last().map_or(0.0, |last| last - all[0]);

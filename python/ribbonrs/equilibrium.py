@@ -125,8 +125,8 @@ def equilibria(scene: Scene, n: int = NODES) -> list[State]:
     """Return every equilibrium of `scene`, with its law and start, in the order of `natural_shapes`."""
     nodes = np.linspace(0.0, scene.ribbon.length_ratio, count("n", n, 2), dtype=np.float64)
     nodes.setflags(write=False)
-    law = SectionLaw(scene.ribbon.thickness_ratio, scene.growth, scene.ribbon.material, scene.law)
-    strains, energies, indices, phases, resolved = law.core.natural_shapes()
+    law = SectionLaw.of(scene.ribbon, scene.growth, scene.law)
+    strains, energies, indices, phases, resolved = law.core().natural_shapes()
     unresolved = int(np.count_nonzero(~resolved))
     if unresolved:
         warnings.warn(

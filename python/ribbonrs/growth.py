@@ -18,7 +18,18 @@ from .measured import from_csv, stations
 from .profile import Profile, path_of
 from .terms import FIELDS, Growth, Shape, Term
 
-__all__ = ["FIELDS", "Growth", "Profile", "Term", "chiral", "edge", "from_csv", "stations", "thickness"]
+__all__ = [
+    "FIELDS",
+    "Growth",
+    "Profile",
+    "Shape",
+    "Term",
+    "chiral",
+    "edge",
+    "from_csv",
+    "stations",
+    "thickness",
+]
 
 
 def edge(xi: AlongInput, name: str = "edge") -> Growth:

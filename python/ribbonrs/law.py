@@ -6,12 +6,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
+from .along import END
 from .arrays import Array, count, real_array, strain_array
 from .check import number
 from .errors import InputError
 from .growth import Growth
 from .material import Isotropic, Material
-from .ribbon import THINNEST
+from .pieces import Pieces
+from .ribbon import THINNEST, Ribbon
+from .terms import core_pieces
 
 __all__ = ["SectionLaw"]
 
@@ -40,7 +43,7 @@ class SectionLaw:
     thickness_ratio : float
         eta = h/a, from 1e-6 to 1.
     growth : Growth
-        See `ribbonrs.growth`.
+        See `ribbonrs.growth`. Where its amplitudes vary along the ribbon, the methods take S.
     material : Isotropic, MooneyRivlin or Orthotropic
         Only the ratios of its stiffnesses matter here.
     law : str
@@ -81,58 +84,100 @@ class SectionLaw:
             raise InputError("material", material, "Isotropic, MooneyRivlin or Orthotropic")
         if not isinstance(law, str) or law not in FORMS:
             raise InputError("law", law, "one of " + ", ".join(FORMS))
-        try:
-            self.core = _core.SectionLaw(eta, material.stiffness, growth.fields(), FORMS[law])
-        except ValueError as error:
-            raise InputError("law", law, f"a law that can represent the growth: {error}") from error
         self.thickness_ratio = eta
         self.growth = growth
         self.material = material
         self.law = law
+        self._width: Pieces | None = None
+        self._thickness: Pieces | None = None
+        self._reach = 0.0
+        self._core: _core.SectionLaw | None = None
+        if not growth.varies:
+            self._core = self._made(None)
+
+    @classmethod
+    def of(cls, ribbon: Ribbon, growth: Growth, law: str = "full") -> SectionLaw:
+        """Return the law of each section of `ribbon`, whose width and thickness may vary along it too.
+
+        Strains, energy and resultants in units of the ribbon's `width` and `thickness`; S in [0, L].
+        """
+        made = cls.__new__(cls)
+        made.thickness_ratio, made.material, made.law = ribbon.thickness_ratio, ribbon.material, law
+        made.growth = growth
+        made._width, made._thickness = ribbon.width_pieces, ribbon.thickness_pieces
+        made._reach = ribbon.length_ratio
+        growth.check_covers(ribbon.length_ratio)
+        made._core = made._made(ribbon.length_ratio)
+        return made
+
+    def _made(self, length: float | None) -> _core.SectionLaw:
+        width, thickness = (1.0 if f is None else core_pieces(f) for f in (self._width, self._thickness))
+        terms = self.growth.core_terms(length)
+        try:
+            stiffness = self.material.stiffness
+            return _core.SectionLaw(self.thickness_ratio, stiffness, terms, FORMS[self.law], width, thickness)
+        except ValueError as error:
+            raise InputError("law", self.law, f"a law that can represent the growth: {error}") from error
+
+    @property
+    def varies(self) -> bool:
+        """Whether the section differs along the ribbon."""
+        return self.growth.varies or self._width is not None or self._thickness is not None
+
+    def core(self, furthest: float = 0.0) -> _core.SectionLaw:
+        """The law in the core, with functions of S resolved up to `furthest` at least."""
+        if self._core is None or furthest > self._reach:
+            self._reach = max(furthest, 2.0 * self._reach, 1.0)
+            self._core = self._made(self._reach)
+        return self._core
 
     @property
     def form(self) -> str:
-        """How the energy is evaluated: "closed", "general" or "second-order"."""
-        return self.core.form
+        """How the energy is evaluated: "closed", "general" or "second-order"; at the start, if it varies."""
+        return self.core().form
 
-    def energy(self, strains: ArrayLike, S: None = None) -> Array:
+    def energy(self, strains: ArrayLike, S: ArrayLike | None = None) -> Array:
         """Return Pi: strains (..., 4) -> (...,), in units of Y h a.
 
-        `S` is where along the ribbon; growth does not vary with S in this version, so None.
+        `S`, of the leading shape of the strains or broadcast with it, is where along the ribbon, in units of
+        the width; needed only where the section varies. Many strains are shared by all cores.
         """
-        flat, shape = _rows(strains, S)
-        return self.core.energy(flat).reshape(shape)
+        flat, places, shape = self._rows(strains, S)
+        return self.core(_furthest(places)).energy(flat, places).reshape(shape)
 
-    def gradient(self, strains: ArrayLike, S: None = None) -> Array:
+    def gradient(self, strains: ArrayLike, S: ArrayLike | None = None) -> Array:
         """Return n3 = dPi/d eps and m_i = dPi/dK_i, eq. (43): strains (..., 4) -> (..., 4)."""
-        flat, shape = _rows(strains, S)
-        return self.core.gradient(flat).reshape((*shape, 4))
+        flat, places, shape = self._rows(strains, S)
+        return self.core(_furthest(places)).gradient(flat, places).reshape((*shape, 4))
 
-    def hessian(self, strains: ArrayLike, S: None = None) -> Array:
+    def hessian(self, strains: ArrayLike, S: ArrayLike | None = None) -> Array:
         """Return the tangent stiffness, the Hessian of Pi: strains (..., 4) -> (..., 4, 4), symmetric."""
-        flat, shape = _rows(strains, S)
-        return self.core.hessian(flat).reshape((*shape, 4, 4))
+        flat, places, shape = self._rows(strains, S)
+        return self.core(_furthest(places)).hessian(flat, places).reshape((*shape, 4, 4))
 
-    def deflection(self, strain: ArrayLike, x: ArrayLike, derivative: int = 0) -> Array:
-        """Return u1/a of the relaxed cross-section, or its first or second x-derivative: x (...,) -> (...,).
+    def deflection(
+        self, strain: ArrayLike, x: ArrayLike, derivative: int = 0, S: float | None = None
+    ) -> Array:
+        """Return u1/a of the relaxed cross-section, or its first or second derivative: x (...,) -> (...,).
 
-        `strain` is one (4,), x = X2/a in [-1/2, 1/2]. The deflection has no component on 1 and x, eqs. (16),
-        (17). Not defined for the quadratic law, which is an energy only.
+        `strain` is one (4,), x = X2 over the width there, in [-1/2, 1/2]; derivatives are in X2/a. The
+        deflection has no component on 1 and x, eqs. (16), (17). Not defined for the quadratic law, which is
+        an energy only.
         """
-        one, points = self._section(strain, x)
+        one, points, place = self._section(strain, x, S)
         if count("derivative", derivative, 0) > 2:
             raise InputError("derivative", derivative, "0, 1 or 2")
-        return self.core.deflection(one, points.ravel(), derivative).reshape(points.shape)
+        return self.core(place).deflection(one, points.ravel(), derivative, place).reshape(points.shape)
 
-    def displacements(self, strain: ArrayLike, x: ArrayLike) -> Array:
+    def displacements(self, strain: ArrayLike, x: ArrayLike, S: float | None = None) -> Array:
         """Return u1, u2, u3 in units of a, relative to the plane section: x (...,) -> (..., 3).
 
         Arguments as for `deflection`; u2 and u3 are those of the mid-surface, of zero mean, eq. (15).
         """
-        one, points = self._section(strain, x)
-        return self.core.displacements(one, points.ravel()).reshape((*points.shape, 3))
+        one, points, place = self._section(strain, x, S)
+        return self.core(place).displacements(one, points.ravel(), place).reshape((*points.shape, 3))
 
-    def _section(self, strain: ArrayLike, x: ArrayLike) -> tuple[Array, Array]:
+    def _section(self, strain: ArrayLike, x: ArrayLike, S: float | None) -> tuple[Array, Array, float]:
         if self.law == "quadratic":
             raise InputError("law", self.law, '"full": the quadratic law has no deflection')
         one = strain_array("strain", strain)
@@ -142,12 +187,52 @@ class SectionLaw:
         outside = points[np.abs(points) > 0.5]
         if outside.size:
             raise InputError("x", float(outside[0]), "numbers in [-1/2, 1/2]")
-        return one, points
+        place = self._places(S, ())
+        return one, points, 0.0 if place is None else float(place[0])
+
+    def _rows(self, strains: ArrayLike, S: ArrayLike | None) -> tuple[Array, Array | None, tuple[int, ...]]:
+        """Strains as rows (m, 4), where they are (m,), and the leading shape."""
+        array = strain_array("strains", strains)
+        shape = array.shape[:-1]
+        if S is not None:
+            shape = _broadcast(shape, real_array("S", S, PLACES).shape)
+            array = np.broadcast_to(array, (*shape, 4))
+        return np.ascontiguousarray(array.reshape(-1, 4)), self._places(S, shape), shape
+
+    def _places(self, S: ArrayLike | None, shape: tuple[int, ...]) -> Array | None:
+        """S for each row (m,), None where it does not matter."""
+        if S is None:
+            if self.varies:
+                raise InputError("S", None, "where along the ribbon: the section varies with S")
+            return None
+        places = real_array("S", S, PLACES)
+        domain = self._domain()
+        outside = places[(places < domain[0]) | (places > domain[1])]
+        if outside.size:
+            raise InputError("S", float(outside[0]), f"numbers in [{domain[0]:g}, {domain[1]:g}]")
+        if not self.varies:
+            return None
+        return np.ascontiguousarray(np.broadcast_to(places, shape).ravel())
+
+    def _domain(self) -> tuple[float, float]:
+        """Where the section is known; the ends of samples count with what rounding adds."""
+        start, end = self.growth.domain or (0.0, np.inf)
+        for pieces in (self._width, self._thickness):
+            if pieces is not None:
+                start, end = max(start, pieces.domain[0]), min(end, pieces.domain[1])
+        return start, end * (1.0 + END)
 
 
-def _rows(strains: ArrayLike, S: None) -> tuple[Array, tuple[int, ...]]:
-    """Strains as rows (m, 4), and the leading shape."""
-    if S is not None:
-        raise InputError("S", S, "None: growth does not vary along the ribbon in this version")
-    array = strain_array("strains", strains)
-    return array.reshape(-1, 4), array.shape[:-1]
+PLACES = "finite numbers S = X3/a >= 0, of the leading shape of the strains"
+"""What S may be."""
+
+
+def _broadcast(shape: tuple[int, ...], places: tuple[int, ...]) -> tuple[int, ...]:
+    try:
+        return np.broadcast_shapes(shape, places)
+    except ValueError:
+        raise InputError("S.shape", places, f"{shape}, the leading shape of the strains") from None
+
+
+def _furthest(places: Array | None) -> float:
+    return 0.0 if places is None or places.size == 0 else float(places.max())

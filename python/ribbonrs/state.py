@@ -186,8 +186,7 @@ class State:
     @property
     def section_law(self) -> SectionLaw:
         """The full section law: it also gives the deflection where the scene's law has none."""
-        ribbon = self.scene.ribbon
-        return SectionLaw(ribbon.thickness_ratio, self.scene.growth, ribbon.material)
+        return SectionLaw.of(self.scene.ribbon, self.scene.growth)
 
     @cached_property
     def _nodes(self) -> Sections:

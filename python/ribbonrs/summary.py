@@ -11,10 +11,11 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from .growth import Term
 from .helix import Helix
+from .pieces import Pieces
 from .scene import Scene
 from .state import State
+from .terms import Shape, Term
 
 __all__ = ["summary"]
 
@@ -49,10 +50,18 @@ def _scene_table(scene: Scene, state: State) -> Table:
 
 def _grown(term: Term) -> str:
     """A growth with its fields: the amplitude alone does not tell a cylinder from a saddle."""
-    fields = ", ".join(
-        f"{name} = {_polynomial([term.amplitude * c for c in shape])}" for name, shape in term.shape
-    )
-    return f"{term.name} {term.amplitude:g} ({fields})"
+    amplitude = term.amplitude
+    factor = amplitude if isinstance(amplitude, float) else 1.0
+    fields = ", ".join(f"{name} = {_profile(shape, factor)}" for name, shape in term.shape)
+    size = f"{amplitude:g}" if isinstance(amplitude, float) else "varying along S"
+    return f"{term.name} {size} ({fields})"
+
+
+def _profile(shape: Shape, factor: float) -> str:
+    if isinstance(shape, Pieces):
+        count = len(shape.coefficients)
+        return f"{count} pieces" if count > 1 else f"a function of degree {shape.degree}"
+    return _polynomial([factor * c for c in shape])
 
 
 def _polynomial(coefficients: list[float]) -> str:

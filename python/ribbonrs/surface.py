@@ -17,7 +17,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.polynomial.polynomial import polyval
 from numpy.typing import ArrayLike
 
 from .arrays import Array, count, real_array
@@ -59,8 +58,8 @@ def layer(state: State, S: ArrayLike, x: Array, X1: float) -> Array:
 
 def section_points(state: State, x: Array, X1: float) -> Array:
     """Points of one cross-section relative to the centreline: array (nx, 3), components on d1, d2, d3."""
-    fields = state.scene.growth.fields()
-    g21, g31 = (polyval(x, np.asarray(fields.get(name, [0.0]))) for name in ("g21", "g31"))
+    fields = state.scene.growth.values(x)
+    g21, g31 = (fields.get(name, np.zeros_like(x)) for name in ("g21", "g31"))
     law = state.section_law
     u1, u2, u3 = law.displacements(state.strain, x).T
     slope = law.deflection(state.strain, x, derivative=1)

@@ -18,7 +18,7 @@ from .errors import InputError
 from .pieces import Pieces, grid
 from .resolve import adapted
 
-__all__ = ["FIELDS", "CoreTerm", "Growth", "Shape", "Term"]
+__all__ = ["FIELDS", "CorePieces", "CoreTerm", "Growth", "Shape", "Term", "core_pieces"]
 
 FIELDS = ("gamma33", "d33", "d22", "d23", "g21", "g31", "gamma22", "gamma23")
 """The parts of the growth tensor that act."""
@@ -26,9 +26,9 @@ FIELDS = ("gamma33", "d33", "d22", "d23", "g21", "g31", "gamma22", "gamma23")
 Shape: TypeAlias = tuple[float, ...] | Pieces
 """A field across the width: coefficients in x, lowest power first, or pieces from -1/2 to 1/2."""
 
-_CorePieces: TypeAlias = tuple[list[float], list[list[float]]]
+CorePieces: TypeAlias = tuple[list[float], list[list[float]]]
 
-CoreTerm: TypeAlias = tuple[float | _CorePieces, dict[str, list[float] | _CorePieces]]
+CoreTerm: TypeAlias = tuple[float | CorePieces, dict[str, list[float] | CorePieces]]
 """A term as the core takes it: pieces are their breaks and the Legendre coefficients of each."""
 
 
@@ -108,22 +108,6 @@ class Growth:
         """Let `sum` start from its 0."""
         return self if other == 0 else NotImplemented
 
-    def fields(self) -> dict[str, list[float]]:
-        """Return the polynomial coefficients of each field present; of constant polynomial growth only."""
-        sums: dict[str, list[float]] = {}
-        for amplitude, shapes in self.core_terms():
-            for key, shape in shapes.items():
-                if isinstance(amplitude, tuple) or isinstance(shape, tuple):
-                    raise InputError("growth", self, "constant polynomial growth in this version")
-                mine = sums.get(key, [])
-                longest = max(len(mine), len(shape))
-                zeros = [0.0] * longest
-                sums[key] = [
-                    a + amplitude * b
-                    for a, b in zip((mine + zeros)[:longest], (shape + zeros)[:longest], strict=True)
-                ]
-        return {key: sums[key] for key in FIELDS if key in sums}
-
     @property
     def varies(self) -> bool:
         """Whether it varies along the ribbon."""
@@ -153,8 +137,8 @@ class Growth:
         terms: list[CoreTerm] = []
         for term in self.terms:
             amplitude = term.along(length)
-            shapes = {key: _core(s) if isinstance(s, Pieces) else list(s) for key, s in term.shape}
-            terms.append((_core(amplitude) if isinstance(amplitude, Pieces) else amplitude, shapes))
+            shapes = {key: core_pieces(s) if isinstance(s, Pieces) else list(s) for key, s in term.shape}
+            terms.append((core_pieces(amplitude) if isinstance(amplitude, Pieces) else amplitude, shapes))
         return terms
 
     def values(self, x: ArrayLike, S: ArrayLike = 0.0) -> dict[str, Array]:
@@ -194,7 +178,8 @@ class Growth:
         return [(term, shape) for term in self.terms for name, shape in term.shape if name == key]
 
 
-def _core(pieces: Pieces) -> _CorePieces:
+def core_pieces(pieces: Pieces) -> CorePieces:
+    """Return pieces as the core takes them."""
     return list(pieces.breaks), [list(coefficients) for coefficients in pieces.coefficients]
 
 

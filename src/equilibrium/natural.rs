@@ -5,7 +5,7 @@ use super::bound::bound;
 use super::reduced::{Sheets, twists};
 use super::roots::roots;
 use super::second_order;
-use crate::section::{Form, Section, Square, Strain};
+use crate::section::{Form, Section, Square, Station, Strain};
 
 /// Equilibria closer than this in `K/eta`, relative beyond 1, are not told apart.
 const RESOLUTION: f64 = 1e-6;
@@ -69,6 +69,19 @@ pub fn natural_shapes(section: &Section) -> Vec<Equilibrium> {
         a.energy.total_cmp(&b.energy).then_with(tie).then_with(bending).then_with(twist)
     });
     shapes
+}
+
+impl Station {
+    /// [`natural_shapes`] of the section, in units of the ribbon's reference dimensions.
+    #[must_use]
+    pub fn natural_shapes(&self) -> Vec<Equilibrium> {
+        let mut shapes = natural_shapes(self.section());
+        for shape in &mut shapes {
+            shape.strain = self.reference(&shape.strain);
+            shape.energy *= self.weight();
+        }
+        shapes
+    }
 }
 
 /// Marks the softest shape as unresolved if the count of all cannot be right.

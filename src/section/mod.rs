@@ -28,6 +28,7 @@ mod pieces;
 mod published;
 mod reduction;
 mod relaxation;
+mod ribbon;
 mod second_order;
 pub mod sigma;
 
@@ -39,6 +40,7 @@ pub use pieces::Reach;
 pub use published::PublishedSaddle;
 pub use reduction::Reduction;
 pub use relaxation::{Relaxation, Relaxed, Square};
+pub use ribbon::{Amplitude, Held, RibbonLaw, RibbonSpec, Station};
 pub use second_order::SecondOrder;
 
 use std::sync::Arc;
@@ -142,7 +144,7 @@ impl Section {
         let reduction = Reduction::new(growth, stiffness);
         let closed = ClosedForm::new(&reduction, eta);
         let reach = match reach {
-            None if !reduction.mesh.is_single() => Reach::new(&[&reduction]).map(Arc::new),
+            None if !reduction.mesh.is_single() => Reach::new(std::slice::from_ref(&reduction)).map(Arc::new),
             given => given,
         };
         let (form, relaxation): (Form, Option<Box<dyn Relaxation>>) = match (form, closed) {

@@ -54,7 +54,7 @@ fn largest_curvature(level: usize) -> f64 {
 impl Reach {
     /// The reach of the growths in `reductions`, which have one mesh and one material.
     #[must_use]
-    pub fn new(reductions: &[&Reduction]) -> Option<Self> {
+    pub fn new(reductions: &[Reduction]) -> Option<Self> {
         let first = reductions.first()?;
         let mesh = first.mesh.clone();
         let mut starts = vec![mesh.parabola()];
@@ -324,7 +324,7 @@ mod tests {
             let steps = Piecewise::from_legendre(breaks, pieces).unwrap();
             let growth = Growth { gamma33: steps.clone().into(), d22: steps.into(), ..Growth::default() };
             let r = Reduction::new(&growth, &PlaneStress::incompressible());
-            let reach = Reach::new(&[&r]).unwrap();
+            let reach = Reach::new(&[r]).unwrap();
             for (level, most) in [(0, 20), (1, 40), (2, 100)] {
                 assert!(reach.modes(level).sigma.len() <= most, "{count} {level}");
                 let k = reach.largest_curvatures()[level];

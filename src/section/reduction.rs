@@ -65,8 +65,13 @@ impl Reduction {
     /// Integrates the fields of `growth`, which must have passed [`Growth::validate`].
     #[must_use]
     pub fn new(growth: &Growth, stiffness: &PlaneStress) -> Self {
+        Self::on(Mesh::of(growth), growth, stiffness)
+    }
+
+    /// The same on a finer mesh.
+    #[must_use]
+    pub fn on(mesh: Mesh, growth: &Growth, stiffness: &PlaneStress) -> Self {
         let material = stiffness.section_constants();
-        let mesh = Mesh::of(growth);
         let d33 = mesh.profile(&growth.d33);
         let twist =
             axpy(-0.5, &mesh.derivative(&growth.g31), &axpy(0.5, &mesh.profile(&growth.d23), &mesh.zero()));

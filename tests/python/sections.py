@@ -20,7 +20,8 @@ Fields = Mapping[str, Sequence[float]]
 
 def law(eta: float, fields: Fields, form: str, stiffness: Sequence[float] = INCOMPRESSIBLE) -> SectionLaw:
     """The compiled law."""
-    return SectionLaw(eta, tuple(stiffness), {k: list(map(float, v)) for k, v in fields.items()}, form)
+    terms = [(1.0, {k: list(map(float, v)) for k, v in fields.items()})]
+    return SectionLaw(eta, tuple(stiffness), terms, form)
 
 
 def growth_squared(eta: float, fields: Fields) -> float:

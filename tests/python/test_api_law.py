@@ -161,8 +161,33 @@ def test_strains_refused(law, method, field, bad):
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_growth_does_not_vary_along_the_ribbon_yet(law, method):
-    refuses("S", lambda: getattr(law, method)(STRAIN, S=0.0))
+def test_a_section_along_the_ribbon_is_that_of_its_growth_there(method):
+    """To the rounding of the amplitude: nothing is interpolated between sections."""
+    varying = rb.SectionLaw(0.1, rb.growth.edge(([0.0, 4.0], [0.0, 0.08])) + rb.growth.chiral(0.02))
+    strains, S = np.tile(STRAIN, (3, 2, 1)), np.array([[0.5, 2.0], [2.5, 3.0], [0.0, 4.0]])
+    along = getattr(varying, method)(strains, S=S)
+    for place in np.ndindex(S.shape):
+        there = rb.SectionLaw(0.1, rb.growth.edge(0.02 * S[place]) + rb.growth.chiral(0.02))
+        np.testing.assert_allclose(along[place], getattr(there, method)(STRAIN), rtol=4e-15, atol=1e-18)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_where_along_the_ribbon_may_be_said_for_uniform_growth_too(law, method):
+    np.testing.assert_array_equal(getattr(law, method)(STRAIN, S=3.0), getattr(law, method)(STRAIN))
+
+
+def test_one_strain_at_many_places():
+    varying = rb.SectionLaw(0.1, rb.growth.edge(lambda S: 0.01 * S))
+    assert varying.energy(STRAIN, S=np.linspace(0.0, 30.0, 7)).shape == (7,)
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(
+    ("field", "S"), [("S", None), ("S", 4.5), ("S", -0.1), ("S", np.nan), ("S.shape", [0.0, 1.0]), ("S", "0")]
+)
+def test_places_along_the_ribbon_refused(method, field, S):
+    varying = rb.SectionLaw(0.1, rb.growth.edge(([0.0, 4.0], [0.0, 0.08])))
+    refuses(field, lambda: getattr(varying, method)(np.tile(STRAIN, (3, 1)), S=S))
 
 
 @pytest.mark.parametrize(

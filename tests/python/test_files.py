@@ -128,6 +128,8 @@ def test_npz(state, tmp_path):
         "length": 30.0,
         "width": 1.5,
         "thickness": 0.15,
+        "width_profile": None,
+        "thickness_profile": None,
         "material": {"kind": "Orthotropic", "Q33": 3e6, "Q22": 1e6, "Q23": 3e5, "G": 4e5},
     }
     assert [(term["name"], term["amplitude"]) for term in scene["growth"]["terms"]] == [

@@ -24,9 +24,9 @@ class Table(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _known_keys(cls, data: object) -> object:
-        for key, value in data.items() if isinstance(data, dict) else ():
+        for key in data if isinstance(data, dict) else ():
             if key not in cls.model_fields:
-                context = {"key": key, "value": value, "known": list(cls.model_fields)}
+                context = {"key": key, "known": list(cls.model_fields)}
                 raise PydanticCustomError("unknown_key", "unknown key", context)
         return data
 

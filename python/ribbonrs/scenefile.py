@@ -242,7 +242,7 @@ def _input_error(detail: ErrorDetails) -> InputError:
         key, known = detail["ctx"]["key"], detail["ctx"]["known"]
         nearest = get_close_matches(key, known, n=1, cutoff=0.0)[0]
         expected = f"one of {', '.join(known)}; the nearest is {nearest}"
-        return InputError(_path(*loc, key), detail["ctx"]["value"], expected)
+        return InputError(_path(*loc, key), value[key], expected)
     if kind in ("union_tag_invalid", "union_tag_not_found"):
         kinds = _KINDS[str(table)]
         expected = f"one of {', '.join(kinds)}" if kinds[1:] else f"{kinds[0]}, all that this version solves"

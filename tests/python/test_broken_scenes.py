@@ -47,6 +47,43 @@ SCENES = [
         "growth": {"thickness": {"xi": 0.2, "transverse": -0.1}},
         "start": {"kind": "clamped", "twist_turns": 0.5},
     },
+    {
+        "ribbon": {"length": 10.0, "width": 1.0, "thickness": 0.1},
+        "growth": {
+            "profile": [
+                {
+                    "name": "rib",
+                    "breaks": [-0.1, 0.1],
+                    "gamma33": [[0.0], [0.02, 0.1], [0.0, 0.01]],
+                    "d33": {"x": [-0.5, -0.1, -0.1, 0.1, 0.1, 0.5], "values": [0.0, 0.1, 0.2, 0.2, 0.0, 0.1]},
+                },
+                {
+                    "name": "measured",
+                    "spline": True,
+                    "gamma33": {"x": [-0.4, -0.2, 0.0, 0.3, 0.5], "values": [0.03, 0.01, 0.0, 0.01, 0.03]},
+                },
+            ]
+        },
+    },
+]
+
+VARYING = [
+    {
+        "ribbon": {
+            "length": 10.0,
+            "width": 1.0,
+            "thickness": 0.1,
+            "width_profile": {"S": [0.0, 5.0, 10.0], "values": [1.0, 1.0, 0.5]},
+        },
+        "growth": {"edge": {"S": [0.0, 5.0, 5.0, 10.0], "values": [0.02, 0.05, 0.03, 0.06]}, "chiral": 0.04},
+    },
+    {
+        "ribbon": {"length": 5.0, "width": 1.0, "thickness": 0.1},
+        "growth": {
+            "thickness": {"xi": {"S": [0, 5], "values": [0.0, 0.3]}, "transverse": 0.1},
+            "profile": {"amplitude": {"S": [0, 5], "values": [0.5, 1]}, "gamma33": [0.0, 0.01, 0.05]},
+        },
+    },
 ]
 
 EXTREME = [0.0, -0.0, math.inf, -math.inf, math.nan, 5e-324, 1e-160, 1e-8, 1e8, 1e160, sys.float_info.max]
@@ -107,7 +144,7 @@ def places(value, path=()):
 @st.composite
 def mutated(draw):
     """A valid scene with one to three entries deleted, renamed, replaced, wrapped or moved."""
-    scene = copy.deepcopy(draw(st.sampled_from(SCENES)))
+    scene = copy.deepcopy(draw(st.sampled_from(SCENES + VARYING)))
     for _ in range(draw(st.integers(1, 3))):
         *path, key = draw(st.sampled_from(list(places(scene)) or [("growth",)]))
         parent = scene
@@ -130,7 +167,7 @@ def mutated(draw):
 @st.composite
 def extreme(draw):
     """A valid scene whose numbers are any number."""
-    scene = copy.deepcopy(draw(st.sampled_from(SCENES)))
+    scene = copy.deepcopy(draw(st.sampled_from(SCENES + VARYING)))
     size = draw(st.sampled_from([1.0, 1e3, 1e300]))
     number = st.one_of(st.floats(-size, size), st.sampled_from(EXTREME))
     for *path, key in list(places(scene)):
@@ -153,19 +190,22 @@ def sound(draw):
     width = draw(powers(-50, 50))
     ratio = draw(powers(-3, -0.1))
     ribbon = {"length": width * draw(powers(-3, 5)), "width": width, "thickness": width * ratio}
-    growth = {}
+    breaks = draw(st.sampled_from([[], [0.1], [-0.3, 0.0, 0.45]]))
+    growth = {"breaks": breaks}
     for field in draw(st.lists(st.sampled_from(FIELDS), max_size=4, unique=True)):
-        coefficients = draw(st.lists(st.floats(-1, 1), min_size=1, max_size=12))
         # On |x| <= 1/2 these polynomials stay below twice their largest coefficient; growth adds no other.
         limit = draw(powers(-12, -0.7)) / (ratio if field.startswith("d") else 2.0)
-        growth[field] = [limit * c for c in coefficients]
+        polynomial = st.lists(st.floats(-1, 1).map(lambda c, limit=limit: limit * c), min_size=1, max_size=12)
+        count = len(breaks) + 1 if field not in ("g21", "g31") else 1
+        pieces = draw(st.lists(polynomial, min_size=count, max_size=count))
+        growth[field] = pieces if count > 1 else pieces[0]
     if draw(st.booleans()):
         scene = {
             "ribbon": ribbon,
             "growth": {"edge": draw(powers(-12, -0.31)), "chiral": draw(powers(-12, -1))},
         }
     else:
-        scene = {"ribbon": ribbon, "growth": {"profile": growth or {"d33": [0.0]}}}
+        scene = {"ribbon": ribbon, "growth": {"profile": {"d33": [0.0]} | growth}}
     scene["material"] = draw(
         st.one_of(
             st.just({"kind": "isotropic"}),
@@ -192,7 +232,7 @@ def sound(draw):
 @st.composite
 def garbled(draw):
     """The text of a valid scene with bytes deleted, inserted, repeated or cut off."""
-    scene = draw(st.sampled_from(SCENES))
+    scene = draw(st.sampled_from(SCENES + VARYING))
     marks = st.sampled_from([b"[", b"]", b"{", b"\n", b"=", b'"', b"."])
     text = document({key: value for key, value in scene.items() if key != "output"})
     for _ in range(draw(st.integers(1, 4))):
@@ -223,6 +263,8 @@ def nested(draw):
                 "growth = " + opening * depth + "1" + closing * closed,
                 "ribbon.length = " + opening * depth + "1" + closing * closed,
                 "growth" + ".edge" * depth + " = 1",
+                "growth.csv" + ".x" * depth + " = 1",
+                "growth.profile" + ".x" * depth + " = 1",
                 "[ribbon" + ".length" * depth + "]",
                 "[[growth.profile" + ".gamma33" * depth + "]]",
             ]
@@ -257,7 +299,7 @@ def check(content):
     return status
 
 
-@pytest.mark.parametrize("scene", SCENES, ids=["helix", "profile", "quadratic", "saddle"])
+@pytest.mark.parametrize("scene", SCENES, ids=["helix", "profile", "quadratic", "saddle", "pieces"])
 def test_whole_scenes_run(scene):
     assert check(document(scene)) == 0
 

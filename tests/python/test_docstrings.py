@@ -10,7 +10,18 @@ import ribbonrs
 MODULES = sorted(
     m.name for m in pkgutil.iter_modules(ribbonrs.__path__) if m.name not in ("__main__", "_core")
 )
-WITH_EXAMPLES = {"equilibrium", "errors", "frame", "growth", "law", "ribbon"}
+WITH_EXAMPLES = {
+    "equilibrium",
+    "errors",
+    "frame",
+    "growth",
+    "law",
+    "measured",
+    "pieces",
+    "profile",
+    "ribbon",
+    "terms",
+}
 
 
 @pytest.mark.parametrize("name", [*MODULES, "__init__"])

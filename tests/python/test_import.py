@@ -3,7 +3,7 @@
 import subprocess
 import sys
 
-HEAVY = ("matplotlib", "pydantic", "rich", "tomllib", "argparse")
+HEAVY = ("matplotlib", "pydantic", "rich", "scipy", "tomllib", "argparse")
 
 TIMED = """
 import sys, time

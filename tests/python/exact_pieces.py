@@ -72,10 +72,11 @@ class Wave(NamedTuple):
 
     def work(self, p: ref.Poly, order: int, a: Any, b: Any) -> Any:
         """Integral of p times the derivative of that order from a to b, by parts."""
-        total = mpf(0)
+        total, factor = mpf(0), self.c * self.rate**order
+        low, high = (mp.exp(self.rate * (x - self.origin)) for x in (a, b))
         while any(p):
-            order -= 1
-            total += ref.at(p, b) * self.at(b, order) - ref.at(p, a) * self.at(a, order)
+            factor /= self.rate
+            total += (factor * (ref.at(p, b) * high - ref.at(p, a) * low)).real
             p = ref.scaled(-1, ref.derivative(p))
         return total
 
@@ -233,11 +234,11 @@ class Exact:
             else:
                 V = [without_curvature(load, self.edges) for load in loads]
 
-            def entry(a: Load, b: Load, v: Deflection) -> Any:
-                fixed = integral(self.edges, a.P, b.P) + D * integral(self.edges, a.f, b.f)
-                return (fixed - K2 * v.work(a.P, 0) + D * v.work(a.f, 2)) / 2
-
-            A = [[entry(a, b, v) for b, v in zip(loads, V, strict=True)] for a in loads]
+            A = [[mpf(0)] * 3 for _ in loads]
+            for i, a in enumerate(loads):
+                for j, (b, v) in enumerate(zip(loads[: i + 1], V, strict=False)):
+                    fixed = integral(self.edges, a.P, b.P) + D * integral(self.edges, a.f, b.f)
+                    A[i][j] = A[j][i] = (fixed - K2 * v.work(a.P, 0) + D * v.work(a.f, 2)) / 2
             self._sections[K2] = V, A
         return self._sections[K2]
 

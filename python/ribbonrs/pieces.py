@@ -122,12 +122,15 @@ def joined(points: Array, values: Array, spline: bool, start: float, end: float)
         ends[0] = _beyond(points[1], values[1], points[0], values[0], start)
         ends[-1] = _beyond(points[-2], values[-2], points[-1], values[-1], end)
         return linear(breaks, ends)
-    from scipy.interpolate import CubicSpline  # type: ignore[import-untyped] # not loaded with the package: it would take most of the time
+    # Loaded here, since it takes longer than the whole package.
+    from scipy.interpolate import CubicSpline  # type: ignore[import-untyped]
 
-    powers = CubicSpline(points, values, bc_type="not-a-knot").c[::-1].T.tolist()
-    starts, ends = breaks[:-1] - points[:-1], breaks[1:] - points[:-1]
-    pieces = tuple(map(series, powers, starts.tolist(), ends.tolist()))
-    return Pieces(tuple(breaks.tolist()), pieces)
+    curve = CubicSpline(points, values, bc_type="not-a-knot")
+    middle, half = 0.5 * (breaks[:-1] + breaks[1:]), 0.5 * np.diff(breaks)
+    # The Taylor series about the middle, in Legendre polynomials.
+    p, dp, d2p, d3p = (curve(middle, k) * half**k for k in range(4))
+    columns = (p + d2p / 6.0, dp + d3p / 10.0, d2p / 3.0, d3p / 15.0)
+    return Pieces(tuple(breaks.tolist()), tuple(zip(*(column.tolist() for column in columns), strict=True)))
 
 
 def _beyond(t0: float, v0: float, t1: float, v1: float, t: float) -> float:

@@ -226,6 +226,8 @@ def _largest_sum(amplitudes: Array, profiles: Array) -> float:
     rows = max(1, 1_000_000 // profiles.shape[1])  # of the table (n, m) at a time
     largest = 0.0
     for i in range(0, amplitudes.shape[1], rows):
-        values = np.abs(amplitudes[:, i : i + rows].T @ profiles)
+        some = amplitudes[:, i : i + rows]
+        present = np.any(some != 0.0, axis=1)  # of many stations two
+        values = np.abs(some[present].T @ profiles[present])
         largest = float(np.maximum(largest, np.max(values)))
     return largest

@@ -27,10 +27,10 @@ COUNTS = (9, 17, 33, 65, 129, 257)
 """Points tried on a piece of the width."""
 
 CHECKS = 2049
-"""Points at which a series must meet the function on a piece of the width."""
+"""Points at which a series must meet the function on a piece."""
 
-LOCAL_COUNTS, LOCAL_CHECKS = (9, 17, 33), 513
-"""The same on a piece along the ribbon, which can be made shorter."""
+LOCAL_COUNTS = (9, 17, 33)
+"""Points tried on a piece along the ribbon, which can be made shorter."""
 
 MOST_PIECES = 1000
 """Most pieces along the ribbon."""
@@ -115,7 +115,7 @@ def adapted(field: str, function: Function, length: float) -> Pieces:
     breaks, pieces, ends = [0.0], [], [length]
     while ends:
         start, end = breaks[-1], ends[-1]
-        values = call(_between(_checks(LOCAL_CHECKS), start, end))
+        values = call(_between(_checks(CHECKS), start, end))
         coefficients = _series(call, start, end, LOCAL_COUNTS, values, size)
         if coefficients is not None:
             pieces.append(coefficients)
@@ -262,7 +262,7 @@ def _unresolved(call: _Call, a: float, b: float, checks: Array, size: float) -> 
     margin = (b - a) / 64
     lo, hi = _pinned(call, max(a, worst - margin), min(b, worst + margin), size)
     place = f"near x = {round(0.5 * (lo + hi), 9) + 0.0:.6g}"
-    low, high = (float(np.max(np.abs(coefficients[i : 2 * i]))) for i in (64, 256))
+    low, high = (max(EPS * size, *np.abs(coefficients[i : 2 * i]).tolist()) for i in (64, 256))
     # Coefficients fall as k^(-1/2) for a jump, whose series does not converge, and as k^(-3/2) for a kink.
     decay = math.log(low / high) / math.log(4.0)
     if hi - lo > 1e-9 * (b - a) and decay < 1.0:

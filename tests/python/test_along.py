@@ -198,6 +198,17 @@ def test_jumps_and_infinite_slopes_are_found(function, at):
     refuses("growth.edge.amplitude", lambda: growth.core_terms(LENGTH))
 
 
+@pytest.mark.parametrize("at", [0.05, 3.3, 7.777])
+def test_short_details_are_met(at):
+    def bump(S):
+        return np.exp(-(((S - at) / 0.01) ** 2))
+
+    near = at + np.linspace(-0.02, 0.02, 41)
+    # The slope is up to 86, and S is known to 2e-16 of itself.
+    pieces = adapted("growth.edge", bump, LENGTH)
+    assert pieces.evaluate(near) == pytest.approx(bump(near), abs=1e-14 + 86 * at * 2 * EPS)
+
+
 def test_too_many_pieces_are_refused():
     refuses("growth.edge.amplitude", lambda: rb.growth.edge(lambda S: np.sin(1e4 * S)).core_terms(LENGTH))
     assert f"{MOST_PIECES} pieces" in refusal(lambda S: np.sin(1e4 * S))

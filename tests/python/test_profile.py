@@ -12,6 +12,7 @@ from numpy.polynomial.polynomial import polyval
 from refusal import refuses
 from ribbonrs.growth import FIELDS
 from ribbonrs.pieces import Pieces
+from ribbonrs.resolve import CHECKS, _checks
 from scipy.interpolate import CubicSpline
 
 EPS = np.finfo(float).eps
@@ -365,6 +366,13 @@ def test_details_too_fine_are_found(at):
     told = line(gamma33=lambda x: np.exp(-(((x - at) / 2e-4) ** 2)))
     assert "not more than 1025" in told
     assert place(told) == pytest.approx(at, abs=1e-3)
+
+
+def test_a_spike_between_the_points_is_found():
+    # At one of the points where the series is checked, and nowhere else that it is called.
+    spike = 0.5 * _checks(CHECKS)[100]
+    told = line(gamma33=lambda x: np.where(np.abs(x - spike) < 1e-9, 1.0, 0.0))
+    assert place(told) == pytest.approx(spike, abs=1e-6)
 
 
 def test_a_pole_is_found():

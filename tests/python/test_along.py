@@ -210,7 +210,6 @@ def test_short_details_are_met(at):
 
 
 def test_too_many_pieces_are_refused():
-    refuses("growth.edge.amplitude", lambda: rb.growth.edge(lambda S: np.sin(1e4 * S)).core_terms(LENGTH))
     assert f"{MOST_PIECES} pieces" in refusal(lambda S: np.sin(1e4 * S))
 
 

@@ -1,12 +1,13 @@
 """Profiles across the width: polynomials in pieces, samples, functions, and what of them is refused."""
 
+import contextlib
 import math
 import warnings
 
 import numpy as np
 import pytest
 import ribbonrs as rb
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.polynomial.polynomial import polyval
 from refusal import refuses
@@ -377,6 +378,46 @@ def test_a_spike_between_the_points_is_found():
 
 def test_a_pole_is_found():
     assert place(line(gamma33=lambda x: 1 / (x - 0.1 + 1e-18))) == pytest.approx(0.1, abs=1e-6)
+
+
+numbers = st.one_of(
+    st.floats(), st.floats(-0.6, 0.6), st.integers(), st.sampled_from([-0.5, 0.0, 0.5, 1e308])
+)
+entries = st.one_of(numbers, st.booleans(), st.none(), st.complex_numbers(), st.text(max_size=2))
+lists = st.one_of(st.lists(numbers, max_size=6), st.lists(numbers, max_size=6).map(sorted), st.lists(entries))
+anything = st.one_of(
+    entries,
+    lists,
+    lists.map(lambda v: np.array(v, dtype=object)),
+    st.lists(numbers, max_size=6).map(lambda v: np.array(v, dtype=float)),
+    st.lists(lists, max_size=3),
+    st.tuples(lists, lists),
+    st.integers(2, 6).flatmap(
+        lambda n: st.tuples(st.just(np.linspace(-0.5, 0.5, n)), st.lists(numbers, min_size=n, max_size=n))
+    ),
+    st.lists(entries, max_size=3).map(tuple),
+    entries.map(lambda v: lambda x: v),
+    numbers.map(lambda v: lambda x: v * x),
+    numbers.map(lambda v: lambda x: x > v),
+    st.just({}),
+)
+
+
+@settings(max_examples=500)
+@given(anything, lists, st.booleans(), anything)
+def test_anything_is_growth_or_is_refused(value, breaks, spline, along):
+    makers = (
+        lambda: rb.growth.Profile(gamma33=value, breaks=breaks, spline=spline, amplitude=along),
+        lambda: rb.growth.Profile(gamma33=value, spline=spline, amplitude=along),
+        lambda: rb.growth.edge(value) + rb.growth.thickness(along, transverse=value),
+        lambda: rb.growth.stations([0.0, 1.0], [rb.growth.edge(0.1), rb.growth.Profile(g31=value)]),
+    )
+    for make in makers:
+        with contextlib.suppress(rb.InputError):
+            growth = make()
+            terms = growth.core_terms(1.0)
+            assert len(terms) == len(growth.terms)
+            assert growth.size(0.1, 1.0) >= 0.0 or math.isnan(growth.size(0.1, 1.0))
 
 
 def test_every_field_takes_everything():

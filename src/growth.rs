@@ -65,7 +65,7 @@ impl Profile {
             return Err(InvalidInput::new(
                 name,
                 found,
-                "a continuous field: the energy of a jump is infinite",
+                "a continuous field, since it acts through its derivative",
             ));
         }
         Ok(())

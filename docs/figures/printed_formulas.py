@@ -48,7 +48,9 @@ def errors() -> dict[str, Any]:
     with np.errstate(over="ignore", invalid="ignore"):
         energies = {"printed formula in doubles": printed(K2, ETA, XI, K3, np)}
     for form in ("closed", "general"):
-        energies[f"ribbonrs, {form} form"] = SectionLaw(ETA, INCOMPRESSIBLE, [(1.0, fields)], form).energy(strains)
+        energies[f"ribbonrs, {form} form"] = SectionLaw(ETA, INCOMPRESSIBLE, [(1.0, fields)], form).energy(
+            strains
+        )
     return {
         name: np.array(
             [float(abs(v - e) / e) if np.isfinite(v) else np.nan for v, e in zip(values, exact, strict=True)]

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "NaturalBranch",
     "SectionLaw",
     "gauss_points",
     "helix",
@@ -31,8 +32,8 @@ class SectionLaw:
         stiffness: tuple[float, float, float, float],
         terms: Sequence[tuple[float | _Pieces, Mapping[str, Sequence[float] | _Pieces]]],
         form: str = "auto",
-        width: float | _Pieces = 1.0,
-        thickness: float | _Pieces = 1.0,
+        width: float | _Pieces | None = None,
+        thickness: float | _Pieces | None = None,
     ) -> SectionLaw: ...
     @property
     def form(self) -> str: ...
@@ -48,6 +49,24 @@ class SectionLaw:
     ) -> _Array: ...
     def displacements(self, strain: Sequence[float] | _Array, x: _Array, S: float = 0.0) -> _Array: ...
     def natural_shapes(self, S: float = 0.0) -> _Shapes: ...
+    def natural_branches(self, length: float) -> list[NaturalBranch]: ...
+
+@final
+class NaturalBranch:
+    """A stable natural shape all along a ribbon that varies."""
+
+    @property
+    def breaks(self) -> _Array: ...
+    @property
+    def energy(self) -> float: ...
+    @property
+    def phases(self) -> list[str]: ...
+    @property
+    def events(self) -> list[tuple[float, str, list[float], list[float]]]: ...
+    def strains(self, S: _Array) -> _Array: ...
+    def poses(
+        self, S: _Array, position: Sequence[float] | _Array, quaternion: Sequence[float] | _Array
+    ) -> _Poses: ...
 
 def natural_shapes_of(laws: Sequence[SectionLaw]) -> list[_Shapes]: ...
 def helix(

@@ -111,7 +111,7 @@ class SectionLaw:
         return made
 
     def _made(self, length: float | None) -> _core.SectionLaw:
-        width, thickness = (1.0 if f is None else core_pieces(f) for f in (self._width, self._thickness))
+        width, thickness = (None if f is None else core_pieces(f) for f in (self._width, self._thickness))
         terms = self.growth.core_terms(length)
         try:
             stiffness = self.material.stiffness

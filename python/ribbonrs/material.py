@@ -121,7 +121,8 @@ class Orthotropic:
         for name in ("Q33", "Q22", "G"):
             object.__setattr__(self, name, positive(f"material.{name}", getattr(self, name)))
         object.__setattr__(self, "Q23", number("material.Q23", self.Q23))
-        if abs(self.Q23) >= math.sqrt(self.Q33) * math.sqrt(self.Q22):
+        # The roots are rounded: without the second condition a stiffness that is just singular would pass.
+        if abs(self.Q23) >= math.sqrt(self.Q33) * math.sqrt(self.Q22) or not self.Y > 0.0:
             raise InputError("material.Q23", self.Q23, "Q23^2 < Q33 Q22, a positive definite stiffness")
         for name in ("Q22", "G"):
             if not 1.0 / ANISOTROPY <= getattr(self, name) / self.Y <= ANISOTROPY:

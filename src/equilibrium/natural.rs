@@ -84,6 +84,21 @@ impl Station {
     }
 }
 
+/// The equilibrium to which Newton's method leads from these strains, in the ribbon's units and not checked
+/// against others nearby, with the rounding error of its curvatures: that of the balance over the stiffness.
+pub(super) fn settle(station: &Station, start: &Strain) -> Option<(Equilibrium, f64)> {
+    let section = station.section();
+    let (local, eta) = (station.local(start), section.eta());
+    let point = polish(section, Point { k: local[2] / eta, q: local[3] / eta, resolved: true })?;
+    let mut shape = unchecked(section, &point);
+    shape.strain = station.reference(&shape.strain);
+    shape.energy *= station.weight();
+    let here = balance(section, point.k, point.q);
+    let [low, high] = here.eigenvalues();
+    let noise = 16.0 * f64::EPSILON * here.scale[0].max(here.scale[1]) / low.abs().min(high.abs());
+    Some((shape, noise * eta / station.width()))
+}
+
 /// Marks the softest shape as unresolved if the count of all cannot be right.
 ///
 /// The energy grows in every direction, so the sum of `(-1)^index` over its nondegenerate critical points
@@ -354,6 +369,10 @@ fn merge(points: &mut Vec<Point>) {
 }
 
 fn equilibrium(section: &Section, point: &Point) -> Equilibrium {
+    Equilibrium { resolved: point.resolved && is_isolated(section, point), ..unchecked(section, point) }
+}
+
+fn unchecked(section: &Section, point: &Point) -> Equilibrium {
     let r = section.reduction();
     let eta = section.eta();
     let (k2, k3) = (point.k * eta, point.q * eta);
@@ -363,6 +382,6 @@ fn equilibrium(section: &Section, point: &Point) -> Equilibrium {
         energy: section.energy(&strain),
         section_index: balance(section, point.k, point.q).index(),
         phase: Phase::of(&strain, eta),
-        resolved: point.resolved && is_isolated(section, point),
+        resolved: point.resolved,
     }
 }

@@ -10,10 +10,10 @@ use super::strains_from;
 use crate::frame::{self, Pose};
 use crate::section::Strain;
 
-type Poses<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>);
+pub type Poses<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>);
 
 /// Positions (n, 3) and quaternions (n, 4) that an integrator finds, without the interpreter's lock.
-fn poses(py: Python<'_>, integrate: impl FnOnce() -> Vec<Pose> + Send) -> Poses<'_> {
+pub fn poses(py: Python<'_>, integrate: impl FnOnce() -> Vec<Pose> + Send) -> Poses<'_> {
     let poses = py.detach(integrate);
     let position = Array2::from_shape_fn((poses.len(), 3), |(i, c)| poses[i].position[c]);
     let quaternion = Array2::from_shape_fn((poses.len(), 4), |(i, c)| poses[i].quaternion()[c]);

@@ -35,5 +35,5 @@ mod _core {
     #[pymodule_export]
     use super::frame::{gauss_points, helix, integrate_gauss, integrate_nodal, integrate_segments};
     #[pymodule_export]
-    use super::section::{SectionLaw, natural_shapes_of};
+    use super::section::{NaturalBranch, SectionLaw, natural_shapes_of};
 }

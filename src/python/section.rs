@@ -9,9 +9,11 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
+use super::frame::{Poses, poses};
 use super::strains_from;
 use crate::InvalidInput;
-use crate::equilibrium::Equilibrium;
+use crate::equilibrium::{self, Equilibrium, Event};
+use crate::frame::Pose;
 use crate::growth::{Growth, Profile};
 use crate::material::PlaneStress;
 use crate::piecewise::Piecewise;
@@ -104,14 +106,14 @@ impl SectionLaw {
 #[pymethods]
 impl SectionLaw {
     #[new]
-    #[pyo3(signature = (eta, stiffness, terms, form = "auto", width = Along::Constant(1.0), thickness = Along::Constant(1.0)))]
+    #[pyo3(signature = (eta, stiffness, terms, form = "auto", width = None, thickness = None))]
     fn new(
         eta: f64,
         stiffness: (f64, f64, f64, f64),
         terms: Vec<Term>,
         form: &str,
-        width: Along,
-        thickness: Along,
+        width: Option<Along>,
+        thickness: Option<Along>,
     ) -> PyResult<Self> {
         let named = Form::NAMES.iter().find(|(name, _)| *name == form);
         let (_, form) = named.ok_or_else(|| {
@@ -124,8 +126,8 @@ impl SectionLaw {
             stiffness: PlaneStress::new(q33, q22, q23, g)?,
             form: *form,
             growth: terms.into_iter().map(term).collect::<PyResult<_>>()?,
-            width: width.amplitude()?,
-            thickness: thickness.amplitude()?,
+            width: factor(width)?,
+            thickness: factor(thickness)?,
         })?;
         Ok(Self { law })
     }
@@ -253,6 +255,69 @@ impl SectionLaw {
         let shapes = py.detach(|| Ok::<_, InvalidInput>(self.law.station(S)?.natural_shapes()))?;
         Ok(arrays(py, &shapes))
     }
+
+    /// Every shape that is stable at S = 0, followed to S = `length`: fewest jumps, then lowest energy first.
+    fn natural_branches(&self, py: Python<'_>, length: f64) -> PyResult<Vec<NaturalBranch>> {
+        let branches = py.detach(|| equilibrium::natural_branches(&self.law, length))?;
+        Ok(branches.into_iter().map(|branch| NaturalBranch { branch }).collect())
+    }
+}
+
+/// A stable natural shape all along a ribbon that varies.
+#[pyclass(frozen, module = "ribbonrs._core")]
+pub struct NaturalBranch {
+    branch: equilibrium::NaturalBranch,
+}
+
+#[pymethods]
+impl NaturalBranch {
+    /// Ends of the elements on which the strains are polynomials.
+    #[getter]
+    fn breaks<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.branch.breaks().into_pyarray(py)
+    }
+
+    /// Mean energy over the length.
+    #[getter]
+    fn energy(&self) -> f64 {
+        self.branch.energy
+    }
+
+    /// The phases met along the ribbon, each run once.
+    #[getter]
+    fn phases(&self) -> Vec<&'static str> {
+        self.branch.phases.iter().map(|phase| phase.name()).collect()
+    }
+
+    /// Where the strains are not smooth: S, kind, strains before and after.
+    #[getter]
+    fn events(&self) -> Vec<(f64, &'static str, [f64; 4], [f64; 4])> {
+        let event = |e: &Event| (e.s, e.kind.name(), e.before.into(), e.after.into());
+        self.branch.events.iter().map(event).collect()
+    }
+
+    /// Strains (m, 4) at S (m,).
+    #[expect(non_snake_case, reason = "the name in Python")]
+    fn strains<'py>(&self, py: Python<'py>, S: PyReadonlyArray1<'py, f64>) -> Bound<'py, PyArray2<f64>> {
+        let strains: Vec<Strain> = S.as_array().iter().map(|&s| self.branch.strain(s)).collect();
+        Array2::from_shape_fn((strains.len(), 4), |(i, c)| strains[i][c]).into_pyarray(py)
+    }
+
+    /// Positions (m, 3) and unit quaternions (m, 4), scalar first, at ascending S (m,).
+    #[expect(non_snake_case, reason = "the name in Python")]
+    fn poses<'py>(
+        &self,
+        py: Python<'py>,
+        S: PyReadonlyArray1<'py, f64>,
+        position: [f64; 3],
+        quaternion: [f64; 4],
+    ) -> PyResult<Poses<'py>> {
+        let s = S.as_array().to_vec();
+        if s.windows(2).any(|w| w[0] > w[1]) {
+            return Err(InvalidInput::new("S", "descending", "ascending numbers").into());
+        }
+        Ok(poses(py, || self.branch.poses(&s, &Pose::new(position, quaternion))))
+    }
 }
 
 /// [`SectionLaw::natural_shapes`] of many uniform ribbons, on all cores.
@@ -275,6 +340,11 @@ fn arrays<'py>(py: Python<'py>, shapes: &[Equilibrium]) -> Shapes<'py> {
         shapes.iter().map(|s| s.phase.name()).collect(),
         resolved.into_pyarray(py),
     )
+}
+
+/// A factor of a dimension, 1 if not given.
+fn factor(along: Option<Along>) -> Result<Amplitude, InvalidInput> {
+    along.map_or(Ok(Amplitude::Constant(1.0)), Along::amplitude)
 }
 
 fn term((amplitude, fields): Term) -> PyResult<(Amplitude, Growth)> {

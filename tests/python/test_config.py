@@ -112,6 +112,7 @@ def test_materials_refuse_what_is_no_number(value):
         ("material.Q33", lambda: rb.Orthotropic(0.0, 1.0, 0.5, 1.0)),
         ("material.Q22", lambda: rb.Orthotropic(1.0, -1.0, 0.5, 1.0)),
         ("material.G", lambda: rb.Orthotropic(1.0, 1.0, 0.5, 0.0)),
+        ("material.Q23", lambda: rb.Orthotropic(0.01, 0.04, 0.02, 1.0)),
         ("material.Q23", lambda: rb.Orthotropic(1.0, 4.0, 2.0, 1.0)),
         ("material.Q23", lambda: rb.Orthotropic(1.0, 4.0, -2.5, 1.0)),
     ],

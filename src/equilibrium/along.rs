@@ -1,0 +1,396 @@
+//! Natural shapes along a ribbon that varies: one branch of equilibria, followed continuously in `S`.
+//!
+//! Without load and with a free end every section is at a natural shape of its own. Of the stable ones at the
+//! start each is followed by Newton's method at the Gauss points of elements in `S`, whose length adapts until
+//! a polynomial holds the strains to [`TOLERANCE`]. Where a stable shape bends away like a square root, at a
+//! bifurcation or a fold, the elements shrink towards that place; there the branch goes over to the stable
+//! shape that begins there, or, if none does, jumps.
+
+use super::Phase;
+use super::natural::{self, Equilibrium};
+use crate::frame::{Pose, gauss_points, integrate_gauss};
+use crate::section::{RibbonLaw, Station, Strain};
+use crate::{InvalidInput, legendre};
+
+/// Part of a strain's size that its polynomial may miss on an element.
+pub const TOLERANCE: f64 = 1e-12;
+
+/// Gauss points of an element.
+const POINTS: usize = 12;
+
+/// Shortest element over the length of the ribbon.
+const SHORTEST: f64 = 1e-13;
+
+/// Elements after which a branch is given up.
+const MOST_ELEMENTS: usize = 100_000;
+
+/// Shapes nearer than this in `K/eta` (relative beyond 1) across a bifurcation are one branch.
+const CONTINUOUS: f64 = 1e-2;
+
+/// Why the strains are not smooth at a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EventKind {
+    /// The branch continues, with a corner: another stable shape begins where it ends.
+    Bifurcation,
+    /// The stable shape ends and no other begins there: the ribbon has a kink.
+    Jump,
+    /// The growth or a dimension jumps.
+    GrowthJump,
+}
+
+impl EventKind {
+    /// The name of the kind.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Bifurcation => "bifurcation",
+            Self::Jump => "jump",
+            Self::GrowthJump => "growth jump",
+        }
+    }
+}
+
+/// A place where the strains are not smooth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Event {
+    /// Where.
+    pub s: f64,
+    /// Why.
+    pub kind: EventKind,
+    /// Strains before.
+    pub before: Strain,
+    /// Strains after.
+    pub after: Strain,
+}
+
+/// Strains on an element, as series in the Legendre polynomials of [`legendre`].
+#[derive(Clone, Debug)]
+struct Element {
+    from: f64,
+    to: f64,
+    strains: [Vec<f64>; 4],
+}
+
+impl Element {
+    fn strain(&self, s: f64) -> Strain {
+        let y = (s - 0.5 * (self.from + self.to)) / (self.to - self.from);
+        Strain::from_fn(|i, _| legendre::evaluate(&self.strains[i], y))
+    }
+}
+
+/// A stable natural shape all along the ribbon.
+#[derive(Clone, Debug)]
+pub struct NaturalBranch {
+    elements: Vec<Element>,
+    /// Where it is not smooth, in order.
+    pub events: Vec<Event>,
+    /// Mean energy over the length.
+    pub energy: f64,
+    /// The phases met, in order, each run once.
+    pub phases: Vec<Phase>,
+}
+
+/// Every branch that is stable at `S = 0`, to `S = length`: fewest jumps first, then lowest energy.
+///
+/// # Errors
+/// If the law refuses a section, none of its shapes is stable, or a branch needs too many elements.
+pub fn natural_branches(law: &RibbonLaw, length: f64) -> Result<Vec<NaturalBranch>, InvalidInput> {
+    let start = law.station(0.0)?.natural_shapes();
+    let stable = start.iter().filter(|shape| shape.section_index == 0 || !shape.resolved);
+    let mut branches: Vec<NaturalBranch> =
+        stable.map(|shape| Follower::new(law, length).follow(shape)).collect::<Result<_, _>>()?;
+    if branches.is_empty() {
+        return Err(InvalidInput::new("S", 0.0, "a section with a stable shape"));
+    }
+    let jumps = |b: &NaturalBranch| b.events.iter().filter(|e| e.kind == EventKind::Jump).count();
+    // Mirror images differ by rounding: they stay in order.
+    let scale = branches.iter().map(|b| b.energy.abs()).fold(0.0, f64::max);
+    let level = |b: &NaturalBranch| (b.energy / (1e-10 * scale).max(f64::MIN_POSITIVE)).round();
+    branches.sort_by(|a, b| jumps(a).cmp(&jumps(b)).then(level(a).total_cmp(&level(b))));
+    Ok(branches)
+}
+
+impl NaturalBranch {
+    /// Ends of the elements.
+    #[must_use]
+    pub fn breaks(&self) -> Vec<f64> {
+        let first = self.elements.first().map(|e| e.from);
+        first.into_iter().chain(self.elements.iter().map(|e| e.to)).collect()
+    }
+
+    /// The strains at `s`.
+    #[must_use]
+    pub fn strain(&self, s: f64) -> Strain {
+        self.elements[self.element(s)].strain(s)
+    }
+
+    fn element(&self, s: f64) -> usize {
+        self.elements.partition_point(|e| e.to <= s).min(self.elements.len() - 1)
+    }
+
+    /// The poses at ascending `s`, from that at `S = 0`.
+    #[must_use]
+    pub fn poses(&self, s: &[f64], start: &Pose) -> Vec<Pose> {
+        let mut poses = Vec::with_capacity(s.len());
+        let mut rest = s;
+        let mut pose = *start;
+        for (i, element) in self.elements.iter().enumerate() {
+            let steps = element.steps();
+            let last = i + 1 == self.elements.len();
+            let inside = rest.partition_point(|&s| last || s < element.to);
+            let (here, after) = rest.split_at(inside);
+            let mut nodes: Vec<f64> = (0..=steps).map(|j| element.node(j, steps)).collect();
+            let corners = nodes.len();
+            nodes.extend(here);
+            nodes.sort_by(f64::total_cmp);
+            let all = element.poses(&nodes, &pose);
+            // Each place asked for is a node; the nodes and the places are both in order.
+            let mut node = 0;
+            for &place in here {
+                while nodes[node] < place {
+                    node += 1;
+                }
+                poses.push(all[node]);
+            }
+            debug_assert!(corners + here.len() == nodes.len());
+            pose = all[element_end(&nodes, element.to)];
+            rest = after;
+        }
+        poses
+    }
+}
+
+/// The last node not beyond the element.
+fn element_end(nodes: &[f64], to: f64) -> usize {
+    nodes.partition_point(|&s| s <= to).max(1) - 1
+}
+
+impl Element {
+    fn node(&self, j: usize, steps: usize) -> f64 {
+        if j == steps { self.to } else { self.from + (self.to - self.from) * (j as f64 / steps as f64) }
+    }
+
+    fn poses(&self, nodes: &[f64], start: &Pose) -> Vec<Pose> {
+        let strains: Vec<[Strain; 3]> =
+            gauss_points(nodes).iter().map(|points| points.map(|s| self.strain(s))).collect();
+        integrate_gauss(nodes, &strains, start)
+    }
+
+    /// Steps of order six over the element whose halves agree to rounding.
+    fn steps(&self) -> usize {
+        let end = |steps: usize| {
+            let nodes: Vec<f64> = (0..=steps).map(|j| self.node(j, steps)).collect();
+            self.poses(&nodes, &Pose::new([0.0; 3], [1.0, 0.0, 0.0, 0.0]))[steps]
+        };
+        let mut steps = 1;
+        let mut coarse = end(steps);
+        while steps < MOST_STEPS {
+            let fine = end(2 * steps);
+            let length = (self.to - self.from).max(f64::MIN_POSITIVE);
+            let moved = (fine.position - coarse.position).norm() / length;
+            let turned = (fine.rotation - coarse.rotation).norm();
+            if moved.max(turned) <= STEP_ERROR {
+                break;
+            }
+            steps *= 2;
+            coarse = fine;
+        }
+        steps
+    }
+}
+
+/// Difference of the poses with steps twice as long: 64 times the error of the shorter.
+const STEP_ERROR: f64 = 1e-13;
+const MOST_STEPS: usize = 4096;
+
+/// What follows one branch.
+struct Follower<'a> {
+    law: &'a RibbonLaw,
+    length: f64,
+    breaks: Vec<f64>,
+    branch: NaturalBranch,
+    work: f64,
+}
+
+impl<'a> Follower<'a> {
+    fn new(law: &'a RibbonLaw, length: f64) -> Self {
+        let inner = law.breaks().into_iter().filter(|&s| s > 0.0 && s < length);
+        let breaks = inner.chain([length]).collect();
+        let branch = NaturalBranch { elements: vec![], events: vec![], energy: 0.0, phases: vec![] };
+        Self { law, length, breaks, branch, work: 0.0 }
+    }
+
+    fn follow(mut self, start: &Equilibrium) -> Result<NaturalBranch, InvalidInput> {
+        let mut strain = start.strain;
+        let mut s = 0.0;
+        for end in self.breaks.clone() {
+            strain = self.enter(s, strain)?;
+            let mut h = end - s;
+            while s < end {
+                let to = if s + 1.5 * h >= end { end } else { s + h };
+                let shortest = SHORTEST * self.length;
+                match self.element(s, to, &strain)? {
+                    Some(last) => {
+                        (s, strain) = (to, last);
+                        h *= 2.0;
+                    }
+                    None if to - s > 2.0 * shortest => h = 0.5 * (to - s),
+                    None => {
+                        (s, strain) = self.cross(s, end, &strain)?;
+                        h = 4.0 * shortest;
+                    }
+                }
+                if self.branch.elements.len() > MOST_ELEMENTS {
+                    let expected = "growth that varies less, for the natural shape to be followed";
+                    return Err(InvalidInput::new("S", s, expected));
+                }
+            }
+        }
+        self.branch.energy = self.work / self.length;
+        Ok(self.branch)
+    }
+
+    /// The strains with which a stretch without breaks begins: the same shape, unless the growth jumps.
+    fn enter(&mut self, s: f64, before: Strain) -> Result<Strain, InvalidInput> {
+        let station = self.law.station(s)?;
+        if let Some((shape, _)) = stable(&station, &before) {
+            if distance(&station, &shape.strain, &before) < 1e-6 {
+                return Ok(shape.strain);
+            }
+        }
+        let shapes = station.natural_shapes();
+        let after = nearest(&station, &shapes, &before).map_or(before, |shape| shape.strain);
+        if distance(&station, &after, &before) >= 1e-6 {
+            self.branch.events.push(Event { s, kind: EventKind::GrowthJump, before, after });
+        }
+        Ok(after)
+    }
+
+    /// Solves on an element from the strains at its start; those at its end, `None` if it is too long.
+    fn element(&mut self, from: f64, to: f64, start: &Strain) -> Result<Option<Strain>, InvalidInput> {
+        let (nodes, weights) = legendre::rule(POINTS);
+        let place = |y: f64| 0.5 * (from + to) + y * (to - from);
+        let mut strains: Vec<Strain> = Vec::with_capacity(POINTS);
+        let mut work = 0.0;
+        let mut phases: Vec<Phase> = Vec::new();
+        let (mut scale, mut noise) = (Strain::zeros(), 0.0_f64);
+        for (i, (&y, weight)) in nodes.iter().zip(weights).enumerate() {
+            let station = self.law.station(place(y))?;
+            let guess = match i {
+                0 => *start,
+                // Along the line through the last two.
+                _ => {
+                    let (before, at) = if i == 1 { (-0.5, *start) } else { (nodes[i - 2], strains[i - 2]) };
+                    strains[i - 1] + (strains[i - 1] - at) * ((y - nodes[i - 1]) / (nodes[i - 1] - before))
+                }
+            };
+            let Some((shape, rounding)) = stable(&station, &guess) else { return Ok(None) };
+            if i == 0 {
+                scale = natural_scale(&station);
+            }
+            noise = noise.max(rounding);
+            scale = scale.sup(&shape.strain.abs());
+            work += weight * shape.energy;
+            if phases.last() != Some(&shape.phase) {
+                phases.push(shape.phase);
+            }
+            strains.push(shape.strain);
+        }
+        let series: [Vec<f64>; 4] = std::array::from_fn(|c| {
+            let values: Vec<f64> = strains.iter().map(|strain| strain[c]).collect();
+            legendre::project(&values, nodes, weights, POINTS)
+        });
+        let element = Element { from, to, strains: series };
+        let (begins, end) = (element.strain(from) - start, element.strain(to));
+        let resolved = (0..4).all(|c| {
+            let tail = &element.strains[c][POINTS - 2..];
+            let tolerance = (TOLERANCE * scale[c]).max(noise);
+            tail.iter().all(|t| t.abs() <= tolerance) && begins[c].abs() <= 1e3 * tolerance
+        });
+        // The last Gauss point is inside: the shape may have ended since. The growth may jump at the end.
+        if !resolved || stable(&*self.law.station(to.next_down())?, &end).is_none() {
+            return Ok(None);
+        }
+        self.work += (to - from) * work;
+        for phase in phases {
+            if self.branch.phases.last() != Some(&phase) {
+                self.branch.phases.push(phase);
+            }
+        }
+        self.branch.elements.push(element);
+        Ok(Some(end))
+    }
+
+    /// Goes over the end of a stable shape at `s` to one beyond it.
+    ///
+    /// Close to a bifurcation its shapes are not told apart: the first place beyond where they are is taken.
+    fn cross(&mut self, s: f64, end: f64, before: &Strain) -> Result<(f64, Strain), InvalidInput> {
+        let mut gap = 4.0 * SHORTEST * self.length;
+        loop {
+            let to = (s + gap).min(0.5 * (s + end));
+            let station = self.law.station(to)?;
+            let shapes = station.natural_shapes();
+            let near = nearest(&station, &shapes, before);
+            let wide = gap >= WIDEST * self.length || to < s + gap;
+            let Some(near) = near.filter(|shape| shape.resolved || wide) else {
+                if wide {
+                    return Err(InvalidInput::new("S", s, "a section with a stable shape"));
+                }
+                gap *= 4.0;
+                continue;
+            };
+            let continuous = distance(&station, &near.strain, before) < CONTINUOUS;
+            let (kind, after) = if continuous {
+                (EventKind::Bifurcation, *near)
+            } else {
+                let lowest = shapes.iter().find(|shape| shape.section_index == 0).unwrap_or(near);
+                let level = lowest.energy + 1e-9 * lowest.energy.abs();
+                let lowest: Vec<Equilibrium> = shapes
+                    .iter()
+                    .filter(|shape| shape.section_index == 0 && shape.energy <= level)
+                    .copied()
+                    .collect();
+                (EventKind::Jump, nearest(&station, &lowest, before).copied().unwrap_or(*near))
+            };
+            self.branch.events.push(Event { s, kind, before: *before, after: after.strain });
+            // Over so short a gap a line will do; a jump is at its start.
+            let left = if continuous { *before } else { after.strain };
+            let line = |c: usize| {
+                let (a, b) = (left[c], after.strain[c]);
+                vec![0.5 * (a + b), (b - a) / 12f64.sqrt()]
+            };
+            self.branch.elements.push(Element { from: s, to, strains: std::array::from_fn(line) });
+            self.work += (to - s) * after.energy;
+            return Ok((to, after.strain));
+        }
+    }
+}
+
+/// Widest gap at a bifurcation over the length of the ribbon.
+const WIDEST: f64 = 1e-7;
+
+/// The stable shape to which Newton's method leads from these strains, and the rounding of its curvatures.
+fn stable(station: &Station, strain: &Strain) -> Option<(Equilibrium, f64)> {
+    natural::settle(station, strain).filter(|(shape, _)| shape.section_index == 0)
+}
+
+/// The stable shape nearest in `K2` and `K3`; of equally near ones the first.
+fn nearest<'a>(station: &Station, shapes: &'a [Equilibrium], strain: &Strain) -> Option<&'a Equilibrium> {
+    let candidates = || shapes.iter().filter(|shape| shape.section_index == 0 || !shape.resolved);
+    let to = |shape: &Equilibrium| distance(station, &shape.strain, strain);
+    let least = candidates().map(to).fold(f64::INFINITY, f64::min);
+    candidates().find(|shape| to(shape) <= least * (1.0 + 1e-6))
+}
+
+/// Distance in `K2` and `K3` over the local thickness ratio, relative beyond 1.
+fn distance(station: &Station, a: &Strain, b: &Strain) -> f64 {
+    let unit = station.section().eta() / station.width();
+    let size = (a[2].abs().max(a[3].abs()) / unit).max(1.0);
+    (a[2] - b[2]).abs().max((a[3] - b[3]).abs()) / (unit * size)
+}
+
+/// Sizes of the strains below which they do not matter: those at which the section's stiffness changes.
+fn natural_scale(station: &Station) -> Strain {
+    let eta = station.section().eta();
+    station.reference(&Strain::new(eta * eta, eta * eta, eta, eta))
+}

@@ -30,11 +30,13 @@ fn recurrence() -> &'static [(f64, f64, f64)] {
 pub fn from_monomials(coefficients: &[f64]) -> Vec<f64> {
     let mut series = vec![0.0; coefficients.len()];
     for (&c, used) in coefficients.iter().rev().zip(0..) {
-        let old = series.clone();
-        for (n, value) in series.iter_mut().enumerate().take(used + 1) {
-            let below = if n > 0 { multiplication(n) * old[n - 1] } else { 0.0 };
-            let above = old.get(n + 1).map_or(0.0, |o| multiplication(n + 1) * o);
-            *value = below + above;
+        let mut old_below = 0.0;
+        for n in 0..=used {
+            let old = series[n];
+            let below = if n > 0 { multiplication(n) * old_below } else { 0.0 };
+            let above = series.get(n + 1).map_or(0.0, |o| multiplication(n + 1) * o);
+            series[n] = below + above;
+            old_below = old;
         }
         if let Some(first) = series.first_mut() {
             *first += c;

@@ -1,0 +1,124 @@
+//! What a scene saves by not using something: pairs of the short way and the long way round.
+//!
+//! That both give the same is tested in tests/pays.rs; the table is in docs/performance.md.
+
+use std::hint::black_box;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use ribbonrs::equilibrium::{natural_branches, natural_shapes};
+use ribbonrs::frame::{Pose, helix};
+use ribbonrs::growth::Growth;
+use ribbonrs::material::PlaneStress;
+use ribbonrs::piecewise::Piecewise;
+use ribbonrs::section::{Amplitude, Form, RibbonLaw, RibbonSpec, Section, Strain};
+
+const ETA: f64 = 0.1;
+const LENGTH: f64 = 10.0;
+
+fn section(growth: &Growth, form: Form) -> Section {
+    Section::new(ETA, growth, &PlaneStress::incompressible(), form).expect("a law for this growth")
+}
+
+fn axial(gamma33: &[f64]) -> Growth {
+    Growth { gamma33: gamma33.to_vec().into(), ..Growth::default() }
+}
+
+fn steps() -> Growth {
+    let pieces = vec![vec![0.1], vec![0.0], vec![0.2]];
+    let steps = Piecewise::from_legendre(vec![-0.5, -0.1, 0.3, 0.5], pieces).expect("pieces");
+    Growth { gamma33: steps.into(), ..Growth::default() }
+}
+
+fn ribbon(amplitude: &[f64], growth: Growth) -> RibbonLaw {
+    let amplitude = Piecewise::from_legendre(vec![0.0, LENGTH], vec![amplitude.to_vec()]).expect("a line");
+    let spec = RibbonSpec {
+        eta: ETA,
+        stiffness: PlaneStress::incompressible(),
+        form: Form::Auto,
+        growth: vec![(Amplitude::Along(amplitude), growth)],
+        width: Amplitude::Constant(1.0),
+        thickness: Amplitude::Constant(1.0),
+    };
+    RibbonLaw::new(spec).expect("a law for this growth")
+}
+
+/// Laws at one strain: value, gradient and Hessian unless said.
+fn sections(c: &mut Criterion) {
+    let strain = Strain::new(0.01, 0.002, 2.4 * ETA, 0.8 * ETA);
+    let edge = Growth::edge(0.06) + Growth::chiral(0.04);
+    let even = axial(&[0.0, 0.0, 0.3, 0.0, -0.5, 0.0, 1.0]);
+    let nearly_even = axial(&[0.0, 0.0, 0.3, 1e-300, -0.5, 0.0, 1.0]);
+    let uncut = axial(&[0.0, 0.0, 0.3, 0.2]);
+    let zero = Growth { gamma33: Piecewise::zero(&[-0.5, 0.1, 0.5]).into(), ..Growth::default() };
+    let mut group = c.benchmark_group("pays");
+    for (name, law) in [
+        ("closed form", section(&edge, Form::Closed)),
+        ("the same growth in modes", section(&edge, Form::General)),
+        ("even growth", section(&even, Form::General)),
+        ("even growth with the odd modes", section(&nearly_even, Form::General)),
+        ("growth without jumps", section(&uncut, Form::General)),
+        ("the same in the modes of two pieces", section(&(uncut.clone() + zero), Form::General)),
+    ] {
+        group.bench_function(name, |b| b.iter(|| law.evaluate(black_box(&strain))));
+    }
+    let law = section(&edge, Form::Auto);
+    group.bench_function("energy alone", |b| b.iter(|| law.energy(black_box(&strain))));
+    group.bench_function("energy and gradient", |b| {
+        b.iter(|| (law.energy(black_box(&strain)), law.gradient(black_box(&strain))));
+    });
+    group.bench_function("energy, gradient and Hessian", |b| b.iter(|| law.evaluate(black_box(&strain))));
+    group.bench_function("deflection", |b| b.iter(|| law.deflection(black_box(&strain))));
+    group.bench_function("deflection and displacements in the plane", |b| {
+        b.iter(|| law.deflection(black_box(&strain)).map(|u| law.in_plane(&strain, &u)));
+    });
+    group.bench_function("a law of one field", |b| {
+        b.iter(|| section(black_box(&Growth::edge(0.06)), Form::Auto))
+    });
+    let zeros = || vec![0.0; 3].into();
+    let all = Growth { d33: zeros(), d22: zeros(), g21: zeros(), g31: zeros(), ..edge.clone() };
+    group.bench_function("a law of six fields, zero but two", |b| {
+        b.iter(|| section(black_box(&all), Form::Auto));
+    });
+    group.finish();
+}
+
+/// Whole ribbons.
+fn ribbons(c: &mut Criterion) {
+    let growth = Growth::edge(0.06) + Growth::chiral(0.04);
+    let s: Vec<f64> = (0..=100).map(|i| LENGTH * f64::from(i) / 100.0).collect();
+    let start = Pose::new([0.0; 3], [1.0, 0.0, 0.0, 0.0]);
+    let mut group = c.benchmark_group("pays");
+    group.sample_size(30);
+    group.bench_function("uniform growth: one point and a helix of 101 nodes", |b| {
+        b.iter(|| {
+            let shapes = natural_shapes(&section(black_box(&growth), Form::Auto));
+            helix(&s, &shapes[0].strain, &start)
+        });
+    });
+    group.bench_function("the same growth, followed along the ribbon", |b| {
+        let law = ribbon(&[1.0], growth.clone());
+        b.iter(|| natural_branches(black_box(&law), LENGTH).map(|branches| branches[0].poses(&s, &start)));
+    });
+    let stations: Vec<f64> = (0..100).map(|i| LENGTH * (f64::from(i) + 0.5) / 100.0).collect();
+    let strain = Strain::new(0.01, 0.0, 2.4 * ETA, 0.8 * ETA);
+    group.bench_function("100 sections with jumps that share their modes", |b| {
+        b.iter(|| {
+            let law = ribbon(&[0.5, 0.5], black_box(steps()));
+            stations.iter().map(|&s| law.station(s).map_or(0.0, |here| here.energy(&strain))).sum::<f64>()
+        });
+    });
+    group.bench_function("100 sections with jumps, each with modes of its own", |b| {
+        b.iter(|| {
+            let energy = |&s: &f64| {
+                let mut growth = Growth::default();
+                growth.add_scaled(0.1 * s, 1.0, black_box(&steps()));
+                section(&growth, Form::Auto).energy(&strain)
+            };
+            stations.iter().map(energy).sum::<f64>()
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, sections, ribbons);
+criterion_main!(benches);

@@ -41,7 +41,7 @@ fn closed_form_and_modes() {
 fn even_growth_takes_half_the_modes() {
     let even = vec![0.0, 0.0, 0.3, 0.0, -0.5, 0.0, 1.0];
     let mut nearly_even = even.clone();
-    nearly_even[3] = 1e-300;
+    nearly_even[3] = 1e-20;
     let laws = [even, nearly_even]
         .map(|gamma33| section(&Growth { gamma33: gamma33.into(), ..Growth::default() }, Form::General));
     assert!(!laws[0].reduction().has_odd_part() && laws[1].reduction().has_odd_part());

@@ -20,8 +20,9 @@ pub fn bound(section: &Section) -> f64 {
 fn bound_by_energy(section: &Section) -> f64 {
     let r = section.reduction();
     let eta = section.eta();
+    let curvature = r.curvature();
     let natural = (r.d33 * r.d33 + r.d33_variance) / 24.0
-        + 0.5 * r.material.beta2 * r.mesh.dot(&r.curvature, &r.curvature)
+        + 0.5 * r.material.beta2 * r.mesh.dot(&curvature, &curvature)
         + r.material.twist * (r.k3 * r.k3 + r.k3_variance);
     let natural = natural * eta * eta;
     let membrane = r.growth_mismatch();
@@ -46,10 +47,12 @@ fn bound_by_curvature(section: &Section) -> f64 {
     let eta = section.eta();
     let (d, q0) = (r.d33.abs() / eta, r.k3 / eta);
     let beta = r.material.beta2.sqrt();
-    let natural = 0.5 * beta * r.mesh.dot(&r.curvature, &r.curvature).sqrt() / eta;
+    let curvature = r.curvature();
+    let natural = 0.5 * beta * r.mesh.dot(&curvature, &curvature).sqrt() / eta;
+    let (mismatch, smooth) = (r.growth_mismatch(), beta * r.gamma33_curvature());
     let membrane = |k: f64| match section.reach() {
-        Some(reach) => reach.relaxed(&r.growth_mismatch(), k).sqrt() / (eta * eta),
-        None => beta * r.gamma33_curvature / (k * eta * eta),
+        Some(reach) => reach.relaxed(&mismatch, k).sqrt() / (eta * eta),
+        None => smooth / (k * eta * eta),
     };
     let excluded = |k: f64| {
         let softness = natural + membrane(k);

@@ -24,16 +24,17 @@ impl Deflection {
         // The energy is stationary in the deflection and takes its errors squared; the deflection itself,
         // and more so its second derivative, needs the next truncation for the same accuracy.
         let finer = |largest: Vec<f64>| (level(strain[2] / eta, &largest) + 1).min(largest.len() - 1);
+        let natural = r.curvature();
         let (u1, relaxed) = match reach {
             None => {
                 // The curvature series must hold the growth as well as the relaxed part.
-                let degree = r.degree().max(r.curvature[0].len());
+                let degree = r.degree().max(natural[0].len());
                 in_smooth_modes(r, eta, strain, finer(largest_curvatures(r.material.beta2, degree)))
             }
             Some(reach) => in_reach(r, reach, eta, strain, finer(reach.largest_curvatures())),
         };
         let bending = r.mesh.polynomial(&[r.material.nu * strain[2]]);
-        let curvature = axpy(-1.0, &bending, &axpy(-1.0, &r.curvature, &relaxed));
+        let curvature = axpy(-1.0, &bending, &axpy(-1.0, &natural, &relaxed));
         let mut slope = r.mesh.integral_of_zero_mean(&curvature);
         // int U' = U(1/2) - U(-1/2).
         let rise = r.mesh.evaluate(&u1, 0.5) - r.mesh.evaluate(&u1, -0.5);
@@ -77,7 +78,7 @@ pub struct InPlane {
 impl InPlane {
     pub(super) fn new(r: &Reduction, strain: &Strain, deflection: &Deflection) -> Self {
         let arm = axpy(-1.0, &r.mesh.multiply_by_x(&deflection.slope), &deflection.u1);
-        let shear = axpy(-strain[3], &arm, &r.gamma23);
+        let shear = axpy(-strain[3], &arm, &r.gamma23());
         Self {
             u2: r.mesh.integral_of_zero_mean(&transverse_strain(r, strain, deflection)),
             u3: r.mesh.integral_of_zero_mean(&shear),
@@ -174,11 +175,11 @@ fn in_reach(r: &Reduction, reach: &Reach, eta: f64, strain: &Strain, level: usiz
 fn transverse_strain(r: &Reduction, strain: &Strain, deflection: &Deflection) -> Series {
     let mesh = &r.mesh;
     let section = mesh.polynomial(&[strain[0], strain[1], 0.5 * strain[3] * strain[3]]);
-    let membrane = axpy(-1.0, &r.gamma33, &axpy(-strain[2], &deflection.u1, &section));
+    let membrane = axpy(-1.0, &r.gamma33(), &axpy(-strain[2], &deflection.u1, &section));
     // As many coefficients as the square has, and no fewer than the growth.
     let lengths = deflection.slope.iter().map(|slope| 2 * slope.len() - 1);
     let squares = mesh.sampled(lengths.fold(1, usize::max), |piece, _, _, y| {
         legendre::evaluate(&deflection.slope[piece], y).powi(2)
     });
-    axpy(-r.material.nu, &membrane, &axpy(-0.5, &squares, &r.gamma22))
+    axpy(-r.material.nu, &membrane, &axpy(-0.5, &squares, &r.gamma22()))
 }

@@ -5,7 +5,7 @@
 
 use super::basis;
 use super::mesh::{Mesh, Series, axpy};
-use crate::growth::Growth;
+use crate::growth::{Growth, Profile};
 use crate::legendre;
 use crate::material::{PlaneStress, SectionConstants};
 
@@ -49,16 +49,7 @@ pub struct Reduction {
     pub gamma: Series,
     /// `s`.
     pub s: Series,
-    /// `d22 + nu d33 - g21'`.
-    pub curvature: Series,
-    /// `gamma33`.
-    pub gamma33: Series,
-    /// Norm of `gamma33''` over the width; infinite where growth jumps.
-    pub gamma33_curvature: f64,
-    /// `gamma22`.
-    pub gamma22: Series,
-    /// `gamma23`.
-    pub gamma23: Series,
+    growth: Growth,
 }
 
 impl Reduction {
@@ -72,52 +63,89 @@ impl Reduction {
     #[must_use]
     pub fn on(mesh: Mesh, growth: &Growth, stiffness: &PlaneStress) -> Self {
         let material = stiffness.section_constants();
-        let d33 = mesh.profile(&growth.d33);
-        let twist =
-            axpy(-0.5, &mesh.derivative(&growth.g31), &axpy(0.5, &mesh.profile(&growth.d23), &mesh.zero()));
-        let curvature =
-            axpy(-1.0, &mesh.derivative(&growth.g21), &axpy(material.nu, &d33, &mesh.profile(&growth.d22)));
-        // The mean is `t` itself and enters exactly; only the rest goes through the basis.
-        let mean = mesh.mean(&curvature);
-        let mut s = mesh.double_integral(&axpy(-mean, &mesh.polynomial(&[1.0]), &curvature));
-        let delta = mean + mesh.take_parabola(&mut s);
+        let (d33, d33_variance) = mean_and_variance(&mesh, || mesh.profile(&growth.d33), &[&growth.d33]);
+        let twist = || {
+            axpy(-0.5, &mesh.derivative(&growth.g31), &axpy(0.5, &mesh.profile(&growth.d23), &mesh.zero()))
+        };
+        let (k3, k3_variance) = mean_and_variance(&mesh, twist, &[&growth.g31, &growth.d23]);
+        let curvature = natural_curvature(&mesh, growth, material.nu);
+        let (mut s, mut delta) = (mesh.zero(), 0.0);
+        if curvature.iter().any(|piece| !piece.is_empty()) {
+            // The mean is `t` itself and enters exactly; only the rest goes through the basis.
+            let mean = mesh.mean(&curvature);
+            s = mesh.double_integral(&axpy(-mean, &mesh.polynomial(&[1.0]), &curvature));
+            delta = mean + mesh.take_parabola(&mut s);
+        }
         // Moments of monomials are rational up to a power of two and more exact than those of the series.
         let axial = &growth.gamma33.polynomial;
-        let gamma33 = mesh.profile(&growth.gamma33);
-        let mut gamma = gamma33.clone();
-        mesh.take_parabola(&mut gamma);
-        let stepped = match &growth.gamma33.pieces {
-            Some(pieces) => pieces.refined(mesh.breaks()).pieces().to_vec(),
-            None => mesh.zero(),
-        };
-        let stepped_mean = mesh.mean(&stepped);
-        let stepped_slope = mesh.mean(&mesh.multiply_by_x(&stepped));
-        let stepped_parabola = mesh.dot(&stepped, &mesh.parabola()) / (basis::PARABOLA * basis::PARABOLA);
-        Self {
+        let mut reduction = Self {
             material,
-            eps: stepped_mean + monomial_sum(axial, |k| even(k) / (k + 1.0)),
-            eps_constant: stepped_mean + axial.first().copied().unwrap_or(0.0),
+            eps: monomial_sum(axial, |k| even(k) / (k + 1.0)),
+            eps_constant: axial.first().copied().unwrap_or(0.0),
             eps_spread: monomial_sum(axial, |k| if k > 0.0 { 24.0 * even(k) / (k + 1.0) } else { 0.0 }),
-            k1: 12.0 * stepped_slope + monomial_sum(axial, |k| 6.0 * odd(k) / (k + 2.0)),
-            d33: mesh.mean(&d33),
-            d33_variance: mesh.variance(&d33),
-            k3: mesh.mean(&twist),
-            k3_variance: mesh.variance(&twist),
-            offset: stepped_parabola + monomial_sum(axial, |k| even(k) * 60.0 * k / ((k + 1.0) * (k + 3.0))),
+            k1: monomial_sum(axial, |k| 6.0 * odd(k) / (k + 2.0)),
+            d33,
+            d33_variance,
+            k3,
+            k3_variance,
+            offset: monomial_sum(axial, |k| even(k) * 60.0 * k / ((k + 1.0) * (k + 3.0))),
             delta,
-            gamma,
+            gamma: mesh.zero(),
             s,
-            curvature,
-            gamma33_curvature: if mesh.is_single() {
-                norm(&legendre::derivative(&legendre::derivative(&gamma33[0])))
-            } else {
-                f64::INFINITY
-            },
-            gamma33,
-            gamma22: mesh.profile(&growth.gamma22),
-            gamma23: mesh.profile(&growth.gamma23),
+            growth: growth.clone(),
             mesh,
+        };
+        if axial.len() > 3 || growth.gamma33.pieces.is_some() {
+            reduction.gamma = reduction.gamma33();
+            reduction.mesh.take_parabola(&mut reduction.gamma);
         }
+        if let Some(pieces) = &growth.gamma33.pieces {
+            reduction.add_moments(pieces.refined(reduction.mesh.breaks()).pieces());
+        }
+        reduction
+    }
+
+    /// Adds the moments of a part of `gamma33` that is given on pieces.
+    fn add_moments(&mut self, part: &[Vec<f64>]) {
+        let mean = self.mesh.mean(part);
+        self.eps += mean;
+        self.eps_constant += mean;
+        self.k1 += 12.0 * self.mesh.mean(&self.mesh.multiply_by_x(part));
+        self.offset += self.mesh.dot(part, &self.mesh.parabola()) / (basis::PARABOLA * basis::PARABOLA);
+    }
+
+    /// `gamma33`.
+    #[must_use]
+    pub fn gamma33(&self) -> Series {
+        self.mesh.profile(&self.growth.gamma33)
+    }
+
+    /// `gamma22`.
+    #[must_use]
+    pub fn gamma22(&self) -> Series {
+        self.mesh.profile(&self.growth.gamma22)
+    }
+
+    /// `gamma23`.
+    #[must_use]
+    pub fn gamma23(&self) -> Series {
+        self.mesh.profile(&self.growth.gamma23)
+    }
+
+    /// `d22 + nu d33 - g21'`.
+    #[must_use]
+    pub fn curvature(&self) -> Series {
+        natural_curvature(&self.mesh, &self.growth, self.material.nu)
+    }
+
+    /// Norm of `gamma33''` over the width; infinite where growth jumps.
+    #[must_use]
+    pub fn gamma33_curvature(&self) -> f64 {
+        if !self.mesh.is_single() {
+            return f64::INFINITY;
+        }
+        let second = legendre::derivative(&legendre::derivative(&self.gamma33()[0]));
+        second.iter().map(|c| c * c).sum::<f64>().sqrt()
     }
 
     /// `gamma33` less its components on `1` and `x`.
@@ -177,6 +205,20 @@ fn odd(k: f64) -> f64 {
     k % 2.0
 }
 
-fn norm(series: &[f64]) -> f64 {
-    series.iter().map(|c| c * c).sum::<f64>().sqrt()
+/// `d22 + nu d33 - g21'`.
+fn natural_curvature(mesh: &Mesh, growth: &Growth, nu: f64) -> Series {
+    if [&growth.d33, &growth.d22, &growth.g21].iter().all(|field| field.is_zero()) {
+        return mesh.zero();
+    }
+    let bending = axpy(nu, &mesh.profile(&growth.d33), &mesh.profile(&growth.d22));
+    axpy(-1.0, &mesh.derivative(&growth.g21), &bending)
+}
+
+/// Mean and variance of a combination of fields, which costs nothing if they are zero.
+fn mean_and_variance(mesh: &Mesh, series: impl Fn() -> Series, fields: &[&Profile]) -> (f64, f64) {
+    if fields.iter().all(|field| field.is_zero()) {
+        return (0.0, 0.0);
+    }
+    let series = series();
+    (mesh.mean(&series), mesh.variance(&series))
 }

@@ -157,6 +157,19 @@ impl Growth {
         }
     }
 
+    /// The gradients through the thickness, and the rest.
+    #[must_use]
+    pub fn split(mut self) -> [Self; 2] {
+        let take = std::mem::take;
+        let gradients = Self {
+            d33: take(&mut self.d33),
+            d22: take(&mut self.d22),
+            d23: take(&mut self.d23),
+            ..Self::default()
+        };
+        [gradients, self]
+    }
+
     /// Checks that every field is finite, not too long, given on the whole width, and continuous where it
     /// acts through its derivative.
     ///

@@ -3,7 +3,7 @@
 use ribbonrs::growth::{Growth, Profile};
 use ribbonrs::material::PlaneStress;
 use ribbonrs::piecewise::Piecewise;
-use ribbonrs::section::{Form, Section, Strain};
+use ribbonrs::section::{Amplitude, Form, RibbonLaw, RibbonSpec, Section, Strain};
 
 /// The polynomial growth with each field given on pieces between `breaks`.
 fn cut(growth: &Growth, breaks: &[f64]) -> Growth {
@@ -41,6 +41,35 @@ fn every_field(eta: f64) -> Growth {
         g31: [0.0, 0.3, 1.1].map(|c| c * eta).to_vec().into(),
         gamma22: vec![e2].into(),
         gamma23: vec![0.0, e2].into(),
+    }
+}
+
+/// Gradients through the thickness scale with the width and the other fields do not: the modes that the
+/// sections of a tapering ribbon share hold both.
+#[test]
+fn modes_of_a_tapering_ribbon_hold_every_section() {
+    let growth = cut(&every_field(0.1), &[-0.5, -0.2, 0.1, 0.5]);
+    let stiffness = PlaneStress::incompressible();
+    let taper = Piecewise::from_legendre(vec![0.0, 10.0], vec![vec![0.6, -0.4]]).unwrap();
+    let law = RibbonLaw::new(RibbonSpec {
+        eta: 0.1,
+        stiffness,
+        form: Form::Auto,
+        growth: vec![(Amplitude::Constant(1.0), growth.clone())],
+        width: Amplitude::Along(taper.clone()),
+        thickness: Amplitude::Constant(1.0),
+    })
+    .unwrap();
+    for s in [0.0, 4.0, 9.0] {
+        let width = taper.evaluate(s);
+        let mut there = Growth::default();
+        there.add_scaled(1.0, width, &growth);
+        let alone = Section::new(0.1 / width, &there, &stiffness, Form::Auto).unwrap();
+        for k2 in [0.3, -1.0] {
+            let strain = Strain::new(0.01, 0.003, k2, 0.2);
+            let (a, b) = (law.station(s).unwrap().section().energy(&strain), alone.energy(&strain));
+            assert!((a - b).abs() <= 1e-14 * b, "{s} {k2}: {a} {b}");
+        }
     }
 }
 

@@ -151,6 +151,14 @@ impl SectionLaw {
         self.law.varies()
     }
 
+    /// |K2| up to which the energy of the section at S is resolved to rounding.
+    #[pyo3(signature = (S = 0.0))]
+    #[expect(non_snake_case, reason = "the name in Python")]
+    fn resolved_curvature(&self, S: f64) -> PyResult<f64> {
+        let station = self.law.station(S)?;
+        Ok(station.section().resolved_curvature() / station.width())
+    }
+
     /// Energies (m,) at strains (m, 4), for a ribbon that varies at S (m,).
     #[pyo3(signature = (strains, S = None))]
     #[expect(non_snake_case, reason = "the name in Python")]

@@ -200,6 +200,13 @@ impl Section {
         self.reach.as_deref()
     }
 
+    /// `|K2|` up to which the energy is resolved to rounding: unlimited, unless growth jumps.
+    #[must_use]
+    pub fn resolved_curvature(&self) -> f64 {
+        let last = self.reach().and_then(|reach| reach.largest_curvatures().last().copied());
+        last.map_or(f64::INFINITY, |k| k * self.eta)
+    }
+
     /// The relaxed part of the energy.
     #[must_use]
     pub fn relaxation(&self) -> &dyn Relaxation {

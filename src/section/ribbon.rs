@@ -201,8 +201,10 @@ impl RibbonLaw {
         if let Some(known) = reaches.get(&active) {
             return Some(Arc::clone(known));
         }
-        let reduce = |&i: &usize| Reduction::on(mesh.clone(), &self.spec.growth[i].1, &self.spec.stiffness);
-        let reductions: Vec<Reduction> = active.iter().map(reduce).collect();
+        // Gradients through the thickness scale with the width, the rest does not.
+        let parts = active.iter().flat_map(|&i| self.spec.growth[i].1.clone().split());
+        let reduce = |part: Growth| Reduction::on(mesh.clone(), &part, &self.spec.stiffness);
+        let reductions: Vec<Reduction> = parts.map(reduce).collect();
         let reach = Arc::new(Reach::new(&reductions)?);
         reaches.insert(active, Arc::clone(&reach));
         Some(reach)

@@ -60,12 +60,12 @@ impl Profile {
             let range = format!("pieces from {first} to {last}");
             return Err(InvalidInput::new(name, range, "pieces from -1/2 to 1/2"));
         }
-        if let Some(x) = pieces.jumps().next().filter(|_| name == "g21" || name == "g31") {
+        if let Some(x) = pieces.jumps().next().filter(|_| name == "g31") {
             let found = format!("a jump at x = {x}");
             return Err(InvalidInput::new(
                 name,
                 found,
-                "a continuous field, since it acts through its derivative",
+                "a continuous field: the energy of a jump is infinite",
             ));
         }
         Ok(())
@@ -170,8 +170,8 @@ impl Growth {
         [gradients, self]
     }
 
-    /// Checks that every field is finite, not too long, given on the whole width, and continuous where it
-    /// acts through its derivative.
+    /// Checks that every field is finite, not too long, given on the whole width, and `g31` continuous, since
+    /// the energy takes the square of its derivative.
     ///
     /// # Errors
     /// The first field that is refused, and why.

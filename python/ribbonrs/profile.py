@@ -73,7 +73,7 @@ def Profile(
     Parameters
     ----------
     gamma33, d33, d22, d23, g21, g31, gamma22, gamma23 : see above
-        A field left out is zero. g21 and g31 must not jump: they act through their derivatives.
+        A field left out is zero. g31 must not jump: the energy would be infinite.
     breaks : sequence of float
         Ascending x inside the width at which fields may jump or have kinks.
     spline : bool
@@ -125,7 +125,7 @@ def Profile(
     if not shape:
         raise InputError(path, {}, f"at least one of {', '.join(FIELDS)}")
     for key, field in shape:
-        if key in ("g21", "g31") and isinstance(field, Pieces):
+        if key == "g31" and isinstance(field, Pieces):
             _check_continuous(f"{path}.{key}", field)
     return Growth((Term(name, _amplitude(f"{path}.amplitude", amplitude), shape),))
 
@@ -228,5 +228,5 @@ def _check_continuous(field: str, pieces: Pieces) -> None:
     jumping = np.flatnonzero(jumps > SAME * size)
     if jumping.size:
         i = int(jumping[0])
-        expected = f"a continuous field, not a jump at x = {x[i]:g}"
+        expected = f"a continuous field, not a jump at x = {x[i]:g}, whose energy is infinite"
         raise InputError(field, float(jumps[i]), expected)

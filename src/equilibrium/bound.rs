@@ -20,9 +20,8 @@ pub fn bound(section: &Section) -> f64 {
 fn bound_by_energy(section: &Section) -> f64 {
     let r = section.reduction();
     let eta = section.eta();
-    let curvature = r.curvature();
     let natural = (r.d33 * r.d33 + r.d33_variance) / 24.0
-        + 0.5 * r.material.beta2 * r.mesh.dot(&curvature, &curvature)
+        + 0.5 * r.material.beta2 * r.curvature().powi(2)
         + r.material.twist * (r.k3 * r.k3 + r.k3_variance);
     let natural = natural * eta * eta;
     let membrane = r.growth_mismatch();
@@ -36,27 +35,29 @@ fn bound_by_energy(section: &Section) -> f64 {
 /// `w (2M + L) - (1 - D) w^2 >= (M + L - gamma)(M + gamma) >= -(L/2 - gamma)^2`, and `D_j <= 1/(mu_j k^2)`,
 ///
 /// ```text
-/// k (k + d)/12 - g q0^2/2 <= sum_j D_j (L_j/2 - gamma_j)^2 <= (beta |r|/2 + G(k)^(1/2))^2,   G = sum_j D_j gamma_j^2,
+/// k (k + d)/12 - g q0^2/2 <= sum_j D_j (L_j/2 - gamma_j)^2 <= (k S(k)^(1/2)/2 + G(k)^(1/2))^2,
+/// S = sum_j D_j s_j^2,   G = sum_j D_j gamma_j^2,
 /// ```
 ///
-/// `r = d22 + nu d33 - g21'` being the curvature whose double integral is `s`, and all growth scaled by the
-/// thickness ratio. The left side grows beyond `|d|/2` and the right side falls. Where `gamma33` is smooth,
-/// `G <= (beta |gamma33''|/k)^2`; where it jumps, `G` is summed over the modes.
+/// all growth scaled by the thickness ratio. Divided by `k^2`, the left side grows beyond `|d|` and the right side
+/// falls. Where growth is smooth, `k S^(1/2) <= beta |r|` with `r = d22 + nu d33 - g21'`, whose double integral
+/// is `s`, and `G <= (beta |gamma33''|/k)^2`; where it jumps, `S` and `G` are summed over the modes.
 fn bound_by_curvature(section: &Section) -> f64 {
     let r = section.reduction();
     let eta = section.eta();
     let (d, q0) = (r.d33.abs() / eta, r.k3 / eta);
     let beta = r.material.beta2.sqrt();
-    let curvature = r.curvature();
-    let natural = 0.5 * beta * r.mesh.dot(&curvature, &curvature).sqrt() / eta;
-    let (mismatch, smooth) = (r.growth_mismatch(), beta * r.gamma33_curvature());
-    let membrane = |k: f64| match section.reach() {
-        Some(reach) => reach.relaxed(&mismatch, k).sqrt() / (eta * eta),
-        None => smooth / (k * eta * eta),
+    let (natural, mismatch) = (r.natural_mismatch(), r.growth_mismatch());
+    let (curvature, smooth) = (beta * r.curvature(), beta * r.gamma33_curvature());
+    // k S^(1/2) and G^(1/2).
+    let relaxed = |k: f64| match section.reach() {
+        Some(reach) => (k * reach.relaxed(&natural, k).sqrt(), reach.relaxed(&mismatch, k).sqrt()),
+        None => (curvature, smooth / k),
     };
     let excluded = |k: f64| {
-        let softness = natural + membrane(k);
-        k * (k - d) / 12.0 > 0.5 * r.material.twist * q0 * q0 + softness * softness
+        let (bent, stretched) = relaxed(k);
+        let softness = 0.5 * bent / eta + stretched / (eta * eta);
+        k > d && k * (k - d) / 12.0 > 0.5 * r.material.twist * q0 * q0 + softness * softness
     };
     let (mut low, mut high) = (0.0, d.max(1.0));
     while !excluded(high) && high.is_finite() {

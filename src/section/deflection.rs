@@ -24,21 +24,23 @@ impl Deflection {
         // The energy is stationary in the deflection and takes its errors squared; the deflection itself,
         // and more so its second derivative, needs the next truncation for the same accuracy.
         let finer = |largest: Vec<f64>| (level(strain[2] / eta, &largest) + 1).min(largest.len() - 1);
-        let natural = r.curvature();
+        let (bending, g21, g21_slope) = (r.bending(), r.g21(), r.g21_slope());
         let (u1, relaxed) = match reach {
             None => {
                 // The curvature series must hold the growth as well as the relaxed part.
-                let degree = r.degree().max(natural[0].len());
+                let degree = r.degree().max(bending[0].len()).max(g21_slope[0].len());
                 in_smooth_modes(r, eta, strain, finer(largest_curvatures(r.material.beta2, degree)))
             }
             Some(reach) => in_reach(r, reach, eta, strain, finer(reach.largest_curvatures())),
         };
-        let bending = r.mesh.polynomial(&[r.material.nu * strain[2]]);
-        let curvature = axpy(-1.0, &bending, &axpy(-1.0, &natural, &relaxed));
-        let mut slope = r.mesh.integral_of_zero_mean(&curvature);
+        // U'' - g21', which stays finite where g21 jumps: the section folds through that angle.
+        let unfolded =
+            axpy(-1.0, &axpy(1.0, &r.mesh.polynomial(&[r.material.nu * strain[2]]), &bending), &relaxed);
+        let mut slope = axpy(1.0, &g21, &r.mesh.integral(&unfolded));
         // int U' = U(1/2) - U(-1/2).
-        let rise = r.mesh.evaluate(&u1, 0.5) - r.mesh.evaluate(&u1, -0.5);
+        let rise = r.mesh.evaluate(&u1, 0.5) - r.mesh.evaluate(&u1, -0.5) - r.mesh.mean(&slope);
         slope.iter_mut().for_each(|series| series[0] += rise);
+        let curvature = axpy(1.0, &g21_slope, &unfolded);
         Self { mesh: r.mesh.clone(), u1, slope, curvature }
     }
 
@@ -54,7 +56,7 @@ impl Deflection {
         self.mesh.evaluate(&self.slope, x)
     }
 
-    /// `d^2(u1/a)/dx^2`.
+    /// `d^2(u1/a)/dx^2`, between jumps of `g21`.
     #[must_use]
     pub fn curvature(&self, x: f64) -> f64 {
         self.mesh.evaluate(&self.curvature, x)

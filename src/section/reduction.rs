@@ -68,14 +68,17 @@ impl Reduction {
             axpy(-0.5, &mesh.derivative(&growth.g31), &axpy(0.5, &mesh.profile(&growth.d23), &mesh.zero()))
         };
         let (k3, k3_variance) = mean_and_variance(&mesh, twist, &[&growth.g31, &growth.d23]);
-        let curvature = natural_curvature(&mesh, growth, material.nu);
         let (mut s, mut delta) = (mesh.zero(), 0.0);
-        if curvature.iter().any(|piece| !piece.is_empty()) {
+        let bent = natural_bending(&mesh, growth, material.nu);
+        if bent.iter().any(|piece| !piece.is_empty()) {
             // The mean is `t` itself and enters exactly; only the rest goes through the basis.
-            let mean = mesh.mean(&curvature);
-            s = mesh.double_integral(&axpy(-mean, &mesh.polynomial(&[1.0]), &curvature));
-            delta = mean + mesh.take_parabola(&mut s);
+            delta = mesh.mean(&bent);
+            s = mesh.double_integral(&axpy(-delta, &mesh.polynomial(&[1.0]), &bent));
         }
+        if !growth.g21.is_zero() {
+            s = axpy(-1.0, &mesh.integral(&mesh.profile(&growth.g21)), &s);
+        }
+        delta += mesh.take_parabola(&mut s);
         // Moments of monomials are rational up to a power of two and more exact than those of the series.
         let axial = &growth.gamma33.polynomial;
         let mut reduction = Self {
@@ -132,10 +135,32 @@ impl Reduction {
         self.mesh.profile(&self.growth.gamma23)
     }
 
-    /// `d22 + nu d33 - g21'`.
+    /// `g21`.
     #[must_use]
-    pub fn curvature(&self) -> Series {
-        natural_curvature(&self.mesh, &self.growth, self.material.nu)
+    pub fn g21(&self) -> Series {
+        self.mesh.profile(&self.growth.g21)
+    }
+
+    /// `g21'`; where `g21` jumps, that of its pieces.
+    #[must_use]
+    pub fn g21_slope(&self) -> Series {
+        self.mesh.derivative(&self.growth.g21)
+    }
+
+    /// `d22 + nu d33`: the natural transverse curvature but for `g21'`.
+    #[must_use]
+    pub fn bending(&self) -> Series {
+        natural_bending(&self.mesh, &self.growth, self.material.nu)
+    }
+
+    /// Norm of `r = d22 + nu d33 - g21'` over the width; infinite where `g21` jumps.
+    #[must_use]
+    pub fn curvature(&self) -> f64 {
+        if self.growth.g21.pieces.as_ref().is_some_and(|pieces| pieces.jumps().next().is_some()) {
+            return f64::INFINITY;
+        }
+        let r = axpy(-1.0, &self.g21_slope(), &self.bending());
+        self.mesh.dot(&r, &r).sqrt()
     }
 
     /// Norm of `gamma33''` over the width; infinite where growth jumps.
@@ -152,6 +177,12 @@ impl Reduction {
     #[must_use]
     pub fn growth_mismatch(&self) -> Series {
         axpy(self.offset, &self.mesh.parabola(), &self.gamma)
+    }
+
+    /// The mismatch that natural transverse curvature makes, per unit of `K2`.
+    #[must_use]
+    pub fn natural_mismatch(&self) -> Series {
+        axpy(self.delta, &self.mesh.parabola(), &self.s)
     }
 
     /// Whether the mismatch is along `t` alone, so that the closed form holds.
@@ -205,13 +236,12 @@ fn odd(k: f64) -> f64 {
     k % 2.0
 }
 
-/// `d22 + nu d33 - g21'`.
-fn natural_curvature(mesh: &Mesh, growth: &Growth, nu: f64) -> Series {
-    if [&growth.d33, &growth.d22, &growth.g21].iter().all(|field| field.is_zero()) {
+/// `d22 + nu d33`.
+fn natural_bending(mesh: &Mesh, growth: &Growth, nu: f64) -> Series {
+    if growth.d33.is_zero() && growth.d22.is_zero() {
         return mesh.zero();
     }
-    let bending = axpy(nu, &mesh.profile(&growth.d33), &mesh.profile(&growth.d22));
-    axpy(-1.0, &mesh.derivative(&growth.g21), &bending)
+    axpy(nu, &mesh.profile(&growth.d33), &mesh.profile(&growth.d22))
 }
 
 /// Mean and variance of a combination of fields, which costs nothing if they are zero.

@@ -17,7 +17,7 @@ from tempfile import TemporaryDirectory
 
 from rich.console import Console
 
-from .equilibrium import equilibria, solve
+from .equilibrium import chosen, equilibria
 from .errors import InputError, RibbonError, RibbonWarning
 from .scenefile import Output, read
 from .state import State
@@ -59,8 +59,9 @@ def _run(path: Path) -> None:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", RibbonWarning)
         job = read(path)
-        state = solve(job.scene)
-        others = [other for other in equilibria(job.scene) if not (other.strain == state.strain).all()]
+        states = equilibria(job.scene)
+        state = chosen(states)
+        others = [other for other in states if other is not state]
         _write(state, job.outputs)
     for message in dict.fromkeys(str(warning.message) for warning in caught):
         print(f"ribbonrs: warning: {message}", file=sys.stderr)

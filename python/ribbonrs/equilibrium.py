@@ -1,23 +1,27 @@
-r"""Unloaded equilibria of a ribbon of uniform growth: the pointwise roots of dPi = 0."""
+r"""Unloaded equilibria: the roots of dPi = 0, of a ribbon that varies along its length in branches."""
 
 from __future__ import annotations
 
 import math
 import warnings
+from typing import TypeAlias, overload
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from .arrays import count, vector
+from . import _core
+from .arrays import Array, count, vector
 from .check import number
+from .course import Along, Uniform
 from .errors import ConvergenceError, InputError, RibbonWarning
 from .growth import Growth
 from .law import SectionLaw
+from .report import Event, Report
 from .ribbon import Ribbon
 from .scene import Scene
-from .state import Report, State
+from .state import State
 
-__all__ = ["NODES", "equilibria", "natural_shapes", "solve"]
+__all__ = ["NODES", "chosen", "equilibria", "natural_shapes", "solve"]
 
 NODES = 101
 """Default number of nodes of a state."""
@@ -28,20 +32,43 @@ SERIES_RADIUS = 7.4578
 From the least zero of sinh z + sin z; in others in proportion to (Q22/Y)^(1/2)."""
 
 METHOD = "pointwise natural shape"
+METHOD_ALONG = "natural shapes followed along the ribbon"
+
+TOLERANCE = 1e-12
+"""What the elements of a branch in the core may miss, relative to the size of the strains."""
+
+_Growths: TypeAlias = list[Growth] | tuple[Growth, ...]
+_Shapes: TypeAlias = tuple[Array, Array, NDArray[np.int64], list[str], NDArray[np.bool_]]
 
 
-def natural_shapes(ribbon: Ribbon, growth: Growth) -> list[State]:
-    r"""Return every unloaded equilibrium of a uniform ribbon, lowest energy first.
+@overload
+def natural_shapes(ribbon: Ribbon, growth: Growth) -> list[State]: ...
+@overload
+def natural_shapes(ribbon: Ribbon, growth: _Growths) -> list[list[State]]: ...
+def natural_shapes(ribbon: Ribbon, growth: Growth | _Growths) -> list[State] | list[list[State]]:
+    r"""Return every unloaded equilibrium of a ribbon, lowest energy first.
 
-    All strains at which :math:`\partial\Pi/\partial\varepsilon = \partial\Pi/\partial K_i = 0`: minima,
-    saddles and maxima, mirror images included, of which K2 > 0, then K3 > 0 comes first. Complete up to
-    pairs closer than 1e-6 in K/eta: a state that stands for several has ``resolved = False``, and a
-    `RibbonWarning` says so.
+    Of a uniform ribbon, all strains at which
+    :math:`\partial\Pi/\partial\varepsilon = \partial\Pi/\partial K_i = 0`: minima, saddles and maxima, mirror
+    images included, of which K2 > 0, then K3 > 0 comes first. Complete up to pairs closer than 1e-6 in K/eta:
+    a state that stands for several has ``resolved = False``, and a `RibbonWarning` says so.
+
+    Of a ribbon that varies along its length, every branch of stable shapes that starts at S = 0, followed to
+    the other end; those with the fewest jumps come first, then those of lowest energy.
+
+    Parameters
+    ----------
+    ribbon : Ribbon
+        Dimensions and material.
+    growth : Growth or list of Growth
+        A list gives a list of lists, one for each growth, found on all cores.
 
     Raises
     ------
     InputError
-        Growth too large for the theory (see `Scene`).
+        Growth too large for the theory (see `Scene`); of a list it is ``growth[i]``.
+    ConvergenceError
+        A branch cannot be followed along the ribbon.
 
     Notes
     -----
@@ -53,8 +80,14 @@ def natural_shapes(ribbon: Ribbon, growth: Growth) -> list[State]:
     >>> leaf = rb.Ribbon(length=10.0, width=1.0, thickness=0.1)
     >>> [(state.phase, state.section_index) for state in rb.natural_shapes(leaf, rb.growth.edge(0.048))]
     [('bent', 0), ('bent', 0), ('flat', 1)]
+    >>> growths = [rb.growth.edge(xi) for xi in (0.04, 0.048, 0.06)]
+    >>> [[state.phase for state in states if state.stable] for states in rb.natural_shapes(leaf, growths)]
+    [['flat'], ['bent', 'bent'], ['bent', 'bent']]
     """
-    return equilibria(Scene(ribbon, growth))
+    if not isinstance(growth, list | tuple):
+        return equilibria(Scene(ribbon, growth))
+    scenes = [_scene(ribbon, one, i) for i, one in enumerate(growth)]
+    return _all_equilibria(scenes, NODES)
 
 
 def solve(
@@ -66,14 +99,17 @@ def solve(
 ) -> State:
     r"""Return an equilibrium of `scene`: an unloaded ribbon, clamped at its start.
 
-    Without `guess` the stable one of lowest energy, of mirror images the one with K2 > 0, then K3 > 0.
+    Without `guess` the stable one of lowest energy, of mirror images the one with K2 > 0, then K3 > 0; of a
+    ribbon that varies along its length, the branch of stable shapes with the fewest jumps, then of lowest
+    energy.
 
     Parameters
     ----------
     scene : Scene
         What to solve.
     guess : State or (4,) array, optional
-        A state, or eps, K1, K2, K3: return the equilibrium nearest to it in (K2, K3), stable or not.
+        A state, or eps, K1, K2, K3: return the equilibrium nearest to it in (K2, K3) at S = 0; stable or not
+        if the ribbon is uniform.
     tol, degree : float, int
         Tolerance in [1e-14, 1) and polynomial degree of the collocation for loaded ribbons, which this
         version does not solve; natural shapes are found to rounding.
@@ -85,12 +121,13 @@ def solve(
     InputError
         An argument out of range, or growth that the scene's law cannot represent.
     ConvergenceError
-        No equilibrium is stable, as happens with ``law="quadratic"``.
+        No equilibrium is stable, as happens with ``law="quadratic"``, or a branch cannot be followed.
 
     Warns
     -----
     RibbonWarning
-        With ``law="quadratic"``, if \|K2\|/eta > 7.46 (incompressible material), where its series diverges.
+        Where the shape jumps along the ribbon; and with ``law="quadratic"``, if \|K2\|/eta > 7.46
+        (incompressible material), where its series diverges.
 
     Examples
     --------
@@ -99,6 +136,12 @@ def solve(
     >>> state = rb.solve(rb.Scene(leaf, rb.growth.edge(0.06) + rb.growth.chiral(0.04)))
     >>> state.phase, state.stable, state.helix.handedness
     ('helical', True, 'right')
+
+    Edges that grow towards the tip only:
+
+    >>> state = rb.solve(rb.Scene(leaf, rb.growth.edge(([0.0, 10.0], [0.0, 0.06]))))
+    >>> state.phases, [(event.kind, round(event.S, 4)) for event in state.report.events]
+    (('flat', 'bent'), [('bifurcation', 7.5779)])
     """
     if not isinstance(scene, Scene):
         raise InputError("scene", scene, "a Scene")
@@ -107,49 +150,140 @@ def solve(
         raise InputError("tol", tol, expected)
     if degree is not None:
         count("degree", degree, 1)
-    states = equilibria(scene, n)
-    state = _stable(states) if guess is None else _nearest(states, guess)
-    k2 = abs(state.strain[2]) / scene.ribbon.thickness_ratio
-    material = scene.ribbon.material
-    radius = SERIES_RADIUS * math.sqrt(0.75 * material.stiffness[1] / material.Y)
-    if scene.law == "quadratic" and k2 > radius:
-        warnings.warn(
-            f"|K2|/eta = {k2:.3g} is beyond {radius:.3g}, where the quadratic law's series diverges",
-            RibbonWarning,
-            stacklevel=2,
-        )
-    return state
+    return chosen(equilibria(scene, n), guess)
 
 
 def equilibria(scene: Scene, n: int = NODES) -> list[State]:
     """Return every equilibrium of `scene`, with its law and start, in the order of `natural_shapes`."""
-    nodes = np.linspace(0.0, scene.ribbon.length_ratio, count("n", n, 2), dtype=np.float64)
-    nodes.setflags(write=False)
-    law = SectionLaw.of(scene.ribbon, scene.growth, scene.law)
-    strains, energies, indices, phases, resolved = law.core().natural_shapes()
-    unresolved = int(np.count_nonzero(~resolved))
+    (states,) = _all_equilibria([scene], n)
+    return states
+
+
+def chosen(states: list[State], guess: State | ArrayLike | None = None) -> State:
+    """Return the one of the `equilibria` of a scene that `solve` returns, with its warnings."""
+    state = _stable(states) if guess is None else _nearest(states, guess)
+    scene = state.scene
+    if scene.law == "quadratic":
+        _warn_beyond_radius(state)
+    jumps = [event for event in state.report.events if event.kind == "jump"]
+    if jumps:
+        told = "; ".join(map(_told, jumps))
+        warnings.warn(f"the shape jumps along the ribbon: {told}", RibbonWarning, stacklevel=3)
+    return state
+
+
+def _warn_beyond_radius(state: State) -> None:
+    """Of a ribbon that varies the stable shapes of this law are all unbent."""
+    ribbon = state.scene.ribbon
+    k2 = float(np.max(np.abs(state.strains[:, 2]))) / ribbon.thickness_ratio
+    radius = SERIES_RADIUS * math.sqrt(0.75 * ribbon.material.stiffness[1] / ribbon.material.Y)
+    if k2 > radius:
+        warnings.warn(
+            f"|K2|/eta = {k2:.3g} is beyond {radius:.3g}, where the quadratic law's series diverges",
+            RibbonWarning,
+            stacklevel=4,
+        )
+
+
+def _told(event: Event) -> str:
+    """As `S = 3.2 from K2 = -0.3, K3 = 0 to K2 = 0.2, K3 = 0.1`."""
+    before, after = (
+        f"K2 = {K2 + 0.0:.4g}, K3 = {K3 + 0.0:.4g}" for *_, K2, K3 in (event.before, event.after)
+    )
+    return f"S = {event.S:.6g} from {before} to {after}"
+
+
+def _scene(ribbon: Ribbon, growth: Growth, i: int) -> Scene:
+    """The scene of one growth of a list, which errors name."""
+    try:
+        return Scene(ribbon, growth)
+    except InputError as error:
+        if not error.field.startswith("growth"):
+            raise
+        field = f"growth[{i}]{error.field.removeprefix('growth')}"
+        raise InputError(field, error.value, error.expected) from None
+
+
+def _all_equilibria(scenes: list[Scene], n: int) -> list[list[State]]:
+    """Every equilibrium of each scene; all the uniform ones are handed to the core at once."""
+    size = count("n", n, 2)
+    laws = [SectionLaw.of(scene.ribbon, scene.growth, scene.law) for scene in scenes]
+    uniform = [None if law.varies else law.core() for law in laws]
+    shared = [core for core in uniform if core is not None]
+    # A single one is not worth waking the other cores.
+    found = iter(
+        _core.natural_shapes_of(shared) if shared[1:] else [core.natural_shapes() for core in shared]
+    )
+    all_states = []
+    unresolved = total = 0
+    for scene, law, core in zip(scenes, laws, uniform, strict=True):
+        nodes = np.linspace(0.0, scene.ribbon.length_ratio, size, dtype=np.float64)
+        nodes.setflags(write=False)
+        states = _branches(scene, law, nodes) if core is None else _shapes(scene, core, nodes, next(found))
+        unresolved, total = unresolved + states[0].report.unresolved, total + len(states)
+        all_states.append(states)
     if unresolved:
         warnings.warn(
-            f"{unresolved} of {len(phases)} equilibria stand for several closer than 1e-6 in K/eta",
+            f"{unresolved} of {total} equilibria stand for several closer than 1e-6 in K/eta",
             RibbonWarning,
-            stacklevel=3,
+            stacklevel=4,
         )
+    return all_states
+
+
+def _shapes(scene: Scene, core: _core.SectionLaw, nodes: Array, shapes: _Shapes) -> list[State]:
+    """The states of a uniform ribbon from what the core found."""
+    strains, energies, indices, phases, resolved = shapes
+    unresolved = len(phases) - int(np.count_nonzero(resolved))
     strains += 0.0  # no negative zeros
-    residuals = np.linalg.norm(law.gradient(strains), axis=-1)
+    residuals = np.linalg.norm(core.gradient(strains), axis=-1)
     strains.setflags(write=False)
+    columns = (energies.tolist(), indices.tolist(), phases, resolved.tolist(), residuals.tolist())
     return [
         State(
             scene=scene,
-            strain=strains[i],
-            energy=float(energies[i]),
-            section_index=int(indices[i]),
-            phase=phase,
-            resolved=bool(resolved[i]),
-            report=Report(METHOD, len(phases), unresolved, float(residuals[i])),
+            course=Uniform(strain),
+            energy=energy,
+            section_index=index,
+            phases=(phase,),
+            resolved=told_apart,
+            report=Report(METHOD, len(phases), unresolved, residual),
             S=nodes,
         )
-        for i, phase in enumerate(phases)
+        for strain, energy, index, phase, told_apart, residual in zip(strains, *columns, strict=True)
     ]
+
+
+def _branches(scene: Scene, law: SectionLaw, nodes: Array) -> list[State]:
+    """The states of a ribbon that varies."""
+    length = scene.ribbon.length_ratio
+    try:
+        branches = law.core().natural_branches(length)
+    except ValueError as error:
+        other = 'law="full"' if scene.law != "full" else "growth, width and thickness that vary less along it"
+        reason = f"no natural shape all along the ribbon, {error}"
+        raise ConvergenceError(reason, np.empty((0, 4)), (), other) from None
+    states = []
+    for branch in branches:
+        course = Along(branch, length)
+        residual = np.max(np.linalg.norm(law.gradient(course.strains(nodes), nodes), axis=-1))
+        events = tuple(
+            Event(S, kind, tuple(before), tuple(after)) for S, kind, before, after in branch.events
+        )
+        elements = branch.breaks.size - 1
+        report = Report(METHOD_ALONG, len(branches), 0, float(residual), events, elements, TOLERANCE)
+        state = State(
+            scene=scene,
+            course=course,
+            energy=branch.energy,
+            section_index=0,
+            phases=tuple(branch.phases),
+            resolved=True,
+            report=report,
+            S=nodes,
+        )
+        states.append(state)
+    return states
 
 
 def _stable(states: list[State]) -> State:
@@ -171,11 +305,17 @@ def _stable(states: list[State]) -> State:
 
 def _nearest(states: list[State], guess: State | ArrayLike) -> State:
     if isinstance(guess, State):
-        strain = guess.strain
+        strain = _first(guess)
     else:
         strain = vector("guess", guess, 4, "a State, or eps, K1, K2, K3")
 
     def distance(state: State) -> float:
-        return float(np.linalg.norm(state.strain[2:] - strain[2:]))
+        return float(np.linalg.norm((_first(state) - strain)[2:]))
 
     return min(states, key=distance)
+
+
+def _first(state: State) -> Array:
+    """The strains (4,) at S = 0."""
+    first: Array = state.course.strains(np.zeros(1))[0]
+    return first

@@ -19,8 +19,10 @@ from numpy.typing import NDArray
 
 from .arrays import Array
 from .errors import InputError
+from .pieces import Pieces
 
 if TYPE_CHECKING:
+    from .ribbon import Ribbon
     from .scene import Scene
     from .state import State
 
@@ -31,11 +33,14 @@ NX = 41
 
 UNITS = (
     "S, x, strains, position, quaternion, directors, force, moment, energy, u: dimensionless (lengths in the "
-    "width a, S = X3/a, x = X2/a, curvatures in 1/a, force and energy in Y h a, moment in Y h a^2). "
+    "width a, S = X3/a, x = X2 over the width at S, curvatures in 1/a, force and energy in Y h a, moment in "
+    "Y h a^2). "
     "physical_* and surface: the user's units, of which length_unit (a), force_unit (Y h a) and "
     "moment_unit (Y h a^2) are the factors. Strains are eps, K1, K2, K3; quaternions scalar first; "
     "directors are rows d1, d2, d3 in the fixed basis; force and moment are components on the directors; "
-    "u is u1, u2, u3 at S, x."
+    "u is u1, u2, u3 at S, x. A function of S is kept in scene as its pieces: breaks in S and the Legendre "
+    "coefficients of each. Of a ribbon that varies along S there is no helix: handedness, turns, "
+    "physical_radius and physical_pitch are left out."
 )
 
 
@@ -104,7 +109,8 @@ def _write_vtp(state: State, path: Path) -> None:
     lines = [
         '<?xml version="1.0"?>',
         '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">',
-        "<!-- points, u1: in the user's length unit; S = X3/a, x = X2/a, strains: dimensionless -->",
+        "<!-- points, u1: in the user's length unit; S = X3/a, x = X2 over the width at S, strains: "
+        "dimensionless -->",
         "<PolyData>",
         f'<Piece NumberOfPoints="{len(points)}" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" '
         f'NumberOfPolys="{len(quads)}">',
@@ -163,16 +169,13 @@ def _write_npz(state: State, path: Path) -> None:
         "stable": state.stable,
         "resolved": state.resolved,
         "phase": state.phase,
-        "handedness": physical.helix.handedness,
-        "turns": physical.helix.turns,
+        "phases": state.phases,
         "physical_S": physical.S,
         "physical_strains": physical.strains,
         "physical_position": physical.position,
         "physical_force": physical.force,
         "physical_moment": physical.moment,
         "physical_energy": physical.energy,
-        "physical_radius": physical.helix.radius,
-        "physical_pitch": physical.helix.pitch,
         "surface": ribbon.width * state.surface(NX),
         "length_unit": ribbon.width,
         "force_unit": force_unit,
@@ -182,20 +185,48 @@ def _write_npz(state: State, path: Path) -> None:
         "report": json.dumps(asdict(state.report)),
         "ribbonrs_version": version("ribbonrs"),
     }
+    if physical.helix is not None:
+        contents |= {
+            "handedness": physical.helix.handedness,
+            "turns": physical.helix.turns,
+            "physical_radius": physical.helix.radius,
+            "physical_pitch": physical.helix.pitch,
+        }
     with path.open("wb") as file:
         np.savez_compressed(file, **contents)
 
 
 def _scene_record(scene: Scene) -> dict[str, Any]:
-    record = asdict(scene)
-    kinds = (
-        (record["ribbon"]["material"], scene.ribbon.material),
-        (record["start"], scene.start),
-        (record["end"], scene.end),
-    )
-    for entry, thing in kinds:
-        entry["kind"] = type(thing).__name__
+    length = scene.ribbon.length_ratio
+    terms = [
+        {"name": term.name, "amplitude": _plain(term.along(length)), "shape": _plain(term.shape)}
+        for term in scene.growth.terms
+    ]
+    return {
+        "ribbon": _ribbon_record(scene.ribbon),
+        "growth": {"terms": terms},
+        "start": {"kind": type(scene.start).__name__, **asdict(scene.start)},
+        "end": {"kind": type(scene.end).__name__, **asdict(scene.end)},
+        "law": scene.law,
+    }
+
+
+def _ribbon_record(ribbon: Ribbon) -> dict[str, Any]:
+    record: dict[str, Any] = {name: getattr(ribbon, name) for name in ("length", "width", "thickness")}
+    for name, given, pieces in (
+        ("width_profile", ribbon.width_profile, ribbon.width_pieces),
+        ("thickness_profile", ribbon.thickness_profile, ribbon.thickness_pieces),
+    ):
+        record[name] = _plain(pieces) if callable(given) else given
+    record["material"] = {"kind": type(ribbon.material).__name__, **asdict(ribbon.material)}
     return record
+
+
+def _plain(value: object) -> Any:
+    """Pieces, alone or within tuples, as dictionaries; all else as it is."""
+    if isinstance(value, Pieces):
+        return asdict(value)
+    return [_plain(entry) for entry in value] if isinstance(value, tuple) else value
 
 
 def _mesh(state: State) -> tuple[Array, NDArray[np.int64]]:

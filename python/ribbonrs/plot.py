@@ -1,4 +1,4 @@
-r"""The figure of a state: the ribbon in space, coloured by its deflection, and its cross-section."""
+r"""The figure of a state: the ribbon in space, coloured by its deflection, and its cross-sections."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .arrays import Array
 from .errors import InputError
 from .files import replacing
 from .render import Picture, render
-from .surface import section_points
+from .surface import section
 
 if TYPE_CHECKING:
     from .state import State
@@ -31,6 +31,7 @@ COLOURS = colormaps["coolwarm"]
 # A deflection below this times the thickness is drawn as none.
 SMALLEST = 1e-6
 INK = "0.2"
+DASHES = ("-", "--", ":")
 # Inches: width of the figure, height of the strip below the ribbon for the fixed basis and the scale.
 WIDE, KEY = 11.0, 0.9
 DPI = 150.0
@@ -41,7 +42,9 @@ def plot(state: State, path: str | PathLike[str] | None = None) -> Figure:
 
     The body is seen in parallel projection (equal scale in all directions), coloured by the deflection
     u1/h and shaded; of a ribbon of more than 20 turns, these are drawn. The profile shows u1/h across the
-    width; the cross-section has the true proportions of width, thickness and deflection.
+    width; the cross-section has the true proportions of width, thickness and deflection. Of a ribbon that
+    varies there are profiles at both ends and halfway and, in place of the cross-section, the curvatures
+    along S, with its events as vertical lines.
 
     Parameters
     ----------
@@ -61,19 +64,25 @@ def plot(state: State, path: str | PathLike[str] | None = None) -> Figure:
         A suffix that matplotlib does not know.
     """
     picture = render(state)
+    h = state.scene.ribbon.thickness_ratio
     x = np.linspace(-0.5, 0.5, 201, dtype=np.float64)
-    deflection = state.section_law.deflection(state.strain, x) / state.scene.ribbon.thickness_ratio
-    largest = float(np.max(np.abs(deflection)))
+    places = np.array([0.0, 0.5, 1.0]) * state.scene.ribbon.length_ratio
+    profiles = section(state, places, x)[0][..., 0] / h
+    largest = float(max(np.max(np.abs(profiles)), np.max(np.abs(picture.u1)) / h))
     limit = 1.06 * largest if largest > SMALLEST else 1.0
     colour = ScalarMappable(Normalize(-limit, limit), COLOURS)
 
     figure = Figure(dpi=DPI, facecolor="white")
     FigureCanvasAgg(figure)
-    space, bar, profile, section = _layout(figure, picture.aspect)
-    _draw_space(space, picture, np.interp(picture.x, x, deflection), colour, _note(state, picture))
-    _draw_profile(profile, x, deflection, colour)
+    space, bar, profile, beside = _layout(figure, picture.aspect)
+    _draw_space(space, picture, picture.u1 / h, colour, _note(state, picture))
+    _draw_profiles(profile, x, profiles, colour)
     figure.colorbar(colour, cax=bar, ticklocation="left").set_label("deflection $u_1/h$")
-    _draw_section(section, state)
+    if state.uniform:
+        _draw_section(beside, state)
+    else:
+        _name_profiles(profile, x, profiles, places)
+        _draw_curvatures(beside, state)
     figure.suptitle(_title(state), y=1.0 - 0.2 / figure.get_figheight(), color=INK, fontsize=12)
     if path is not None:
         _write(figure, path)
@@ -145,23 +154,35 @@ def _round_number(value: float) -> float:
     return float(power * max(digit for digit in (1.0, 2.0, 5.0) if digit * power <= value))
 
 
-def _draw_profile(axes: Axes, x: Array, deflection: Array, colour: ScalarMappable) -> None:
-    points = np.stack([x, deflection], axis=1)
-    segments = np.stack([points[:-2], points[2:]], axis=1)  # overlapping, without seams
+def _draw_profiles(axes: Axes, x: Array, deflections: Array, colour: ScalarMappable) -> None:
     axes.axhline(0.0, color="0.75", linewidth=0.8)
-    axes.plot(x, deflection, color=INK, linewidth=4.0, solid_capstyle="round")
-    line = LineCollection(
-        list(segments), array=deflection[1:-1], cmap=COLOURS, norm=colour.norm, linewidths=2.6
-    )
-    axes.add_collection(line)
+    for deflection in deflections:
+        points = np.stack([x, deflection], axis=1)
+        segments = np.stack([points[:-2], points[2:]], axis=1)  # overlapping, without seams
+        axes.plot(x, deflection, color=INK, linewidth=4.0, solid_capstyle="round")
+        line = LineCollection(
+            list(segments), array=deflection[1:-1], cmap=COLOURS, norm=colour.norm, linewidths=2.6
+        )
+        axes.add_collection(line)
     axes.set(xlim=(-0.54, 0.54), ylim=colour.get_clim(), xlabel="$X_2/a$", yticks=[])
+
+
+def _name_profiles(axes: Axes, x: Array, deflections: Array, places: Array) -> None:
+    """Say at which S each profile is, beside its right end; equal ones share a name."""
+    axes.set(xlim=(-0.54, 0.86), xlabel="$X_2$ over the width at $S$", xticks=[-0.5, 0.0, 0.5])
+    low, high = axes.get_ylim()
+    named: dict[int, list[str]] = {}
+    for deflection, S in zip(deflections, places, strict=True):
+        named.setdefault(round(20 * (deflection[-1] - low) / (high - low)), []).append(f"{S:.4g}")
+    for row, names in named.items():
+        height = low + row / 20 * (high - low)
+        axes.text(0.56, height, "$S$ = " + ", ".join(names), color=INK, fontsize=8, va="center")
 
 
 def _draw_section(axes: Axes, state: State) -> None:
     x = np.linspace(-0.5, 0.5, 201, dtype=np.float64)
-    half = state.scene.ribbon.thickness_ratio / 2
-    top, bottom = section_points(state, x, half), section_points(state, x, -half)
-    outline = np.concatenate([top, bottom[::-1]])
+    (middle,), (fibre,) = section(state, np.zeros(1), x)
+    outline = np.concatenate([middle + fibre, (middle - fibre)[::-1]])
     axes.fill(outline[:, 1], outline[:, 0], facecolor="0.82", edgecolor=INK, linewidth=1.0)
     low, high = outline[:, 1].min(), outline[:, 1].max()
     margin = 0.04 * (high - low)
@@ -170,18 +191,40 @@ def _draw_section(axes: Axes, state: State) -> None:
     axes.axis("off")
 
 
+def _draw_curvatures(axes: Axes, state: State) -> None:
+    """K1, K2 and K3 along S, without those that are zero."""
+    S = np.linspace(0.0, state.scene.ribbon.length_ratio, 1001)
+    strains = state.course.strains(S)
+    for i, style in zip((2, 3, 1), DASHES, strict=True):
+        if np.max(np.abs(strains[:, i])) > SMALLEST * state.scene.ribbon.thickness_ratio:
+            axes.plot(S, strains[:, i], style, color=INK, linewidth=1.4, label=f"$K_{i} a$")
+    axes.axhline(0.0, color="0.75", linewidth=0.8, zorder=0)
+    for event in state.report.events:
+        axes.axvline(event.S, color="0.75", linewidth=0.8, zorder=0)
+    axes.set(xlim=(0.0, S[-1]), xlabel="$S = X_3/a$")
+    axes.spines[["top", "right"]].set_visible(False)
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(frameon=False, fontsize=9, ncols=3, loc="lower right", bbox_to_anchor=(1.0, 0.98))
+
+
 def _title(state: State) -> str:
-    eps, K1, K2, K3 = state.strain
-    return (
-        f"{state.phase}, {'stable' if state.stable else 'unstable'}:  "
-        rf"$\varepsilon$ = {eps:.4g},  $K_1$ = {K1:.4g},  $K_2$ = {K2:.4g},  $K_3$ = {K3:.4g}"
-    )
+    strains = state.course.strains(state.S)
+    names = (r"\varepsilon", "K_1", "K_2", "K_3")
+    values = ",  ".join(f"${name}$ {_range(column)}" for name, column in zip(names, strains.T, strict=True))
+    return f"{', '.join(state.phases)}, {'stable' if state.stable else 'unstable'}:  {values}"
+
+
+def _range(values: Array) -> str:
+    """As `= 0.02` or, if four figures tell the least from the greatest, `from 0.01 to 0.02`."""
+    least, greatest = f"{np.min(values):.4g}", f"{np.max(values):.4g}"
+    return f"= {least}" if least == greatest else f"from {least} to {greatest}"
 
 
 def _note(state: State, picture: Picture) -> str:
     if picture.drawn == 1.0:
         return ""
-    return f"the first {picture.drawn * state.helix.turns:.0f} of {state.helix.turns:.0f} turns"
+    drawn, turns = state.course.turns(np.array([picture.drawn, 1.0]) * state.scene.ribbon.length_ratio)
+    return f"the first {drawn:.0f} of {turns:.0f} turns"
 
 
 def _write(figure: Figure, path: str | PathLike[str]) -> None:

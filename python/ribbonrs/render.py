@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .arrays import Array
-from .surface import layer
+from .surface import placed, section
 
 if TYPE_CHECKING:
     from .state import State
@@ -49,8 +49,8 @@ class Picture:
     ----------
     cells : (m, 4, 2) array
         Corners: right, up.
-    x : (m,) array
-        X2/a of the middle of each cell.
+    u1 : (m,) array
+        Deflection in the middle of each cell.
     shade : (m,) array
         Light that the cell sends back, 0 (dark) to 1.
     gloss : (m,) array
@@ -62,7 +62,7 @@ class Picture:
     """
 
     cells: Array
-    x: Array
+    u1: Array
     shade: Array
     gloss: Array
     axes: Array
@@ -82,15 +82,21 @@ class Picture:
 
 def render(state: State) -> Picture:
     """Return the body of `state` as cells to paint: both faces, the edges and the ends."""
-    length, turns = state.scene.ribbon.length_ratio, state.helix.turns
-    drawn = min(1.0, MAX_TURNS / turns) if turns else 1.0
-    wanted = drawn * max(CELLS_PER_TURN * turns, CELLS_PER_WIDTH * length)
+    length, course = state.scene.ribbon.length_ratio, state.course
+    end = length
+    turns = float(course.turns(np.array([length]))[0])
+    if turns > MAX_TURNS:
+        places = np.linspace(0.0, length, 1001)
+        end = float(np.interp(MAX_TURNS, course.turns(places), places))
+    wanted = max(CELLS_PER_TURN * min(turns, MAX_TURNS), CELLS_PER_WIDTH * end)
     along = int(np.clip(wanted, MIN_ALONG, MAX_ALONG))
     across = int(np.clip(CELLS / along, MIN_ACROSS, MAX_ACROSS))
-    S = np.linspace(0.0, drawn * length, along + 1)
+    S = np.linspace(0.0, end, along + 1)
     x = np.concatenate([[-0.5], np.linspace(-0.5 + OUTLINE, 0.5 - OUTLINE, across - 1), [0.5]])
-    half = state.scene.ribbon.thickness_ratio / 2
-    top, bottom = layer(state, S, x, half), layer(state, S, x, -half)
+    sections = state.at(S)
+    middle, fibre = section(state, S, x)
+    top, bottom = placed(sections, middle + fibre), placed(sections, middle - fibre)
+    u1 = _means(np.broadcast_to(middle[..., 0], (along + 1, across + 1)))
 
     camera = _camera(np.concatenate([top, bottom], axis=1))
     x_mid = (x[:-1] + x[1:]) / 2
@@ -98,24 +104,31 @@ def render(state: State) -> Picture:
     parts = []
     # each part: two rows of lines of points, such that the cells between them turn outwards
     for lines, at, paint in (
-        (top, x_mid, face),
-        (bottom[:, ::-1], -x_mid, face),
-        (np.stack([bottom[:, 0], top[:, 0]], axis=1), x_mid[:1], np.array([WALL_SHADE])),
-        (np.stack([top[:, -1], bottom[:, -1]], axis=1), x_mid[-1:], np.array([WALL_SHADE])),
-        (np.stack([bottom[0], top[0]]), x_mid, np.full(across, WALL_SHADE)),
-        (np.stack([top[-1], bottom[-1]]), x_mid, np.full(across, WALL_SHADE)),
+        (top, u1, face),
+        (bottom[:, ::-1], u1[:, ::-1], face),
+        (np.stack([bottom[:, 0], top[:, 0]], axis=1), u1[:, :1], np.array([WALL_SHADE])),
+        (np.stack([top[:, -1], bottom[:, -1]], axis=1), u1[:, -1:], np.array([WALL_SHADE])),
+        (np.stack([bottom[0], top[0]]), u1[:1], np.full(across, WALL_SHADE)),
+        (np.stack([top[-1], bottom[-1]]), u1[-1:], np.full(across, WALL_SHADE)),
     ):
         corners = np.stack([lines[:-1, :-1], lines[1:, :-1], lines[1:, 1:], lines[:-1, 1:]], axis=2)
-        rows = corners.shape[0]
-        parts.append((corners.reshape(-1, 4, 3) @ camera.T, np.tile(at, rows), np.tile(paint, rows)))
-    corners, where, paint = (np.concatenate(items) for items in zip(*parts, strict=True))
+        parts.append((corners.reshape(-1, 4, 3) @ camera.T, at.ravel(), np.tile(paint, corners.shape[0])))
+    corners, colour, paint = (np.concatenate(items) for items in zip(*parts, strict=True))
 
     normal = np.cross(corners[:, 3] - corners[:, 1], corners[:, 2] - corners[:, 0])
     normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), np.finfo(float).tiny)
     order = np.argsort(corners[:, :, 2].sum(axis=1))
     order = order[normal[order, 2] > 0.0]
     shade, gloss = _light(normal[order])
-    return Picture(corners[order, :, :2], where[order], shade * paint[order], gloss, camera[:2].T, drawn)
+    return Picture(
+        corners[order, :, :2], colour[order], shade * paint[order], gloss, camera[:2].T, end / length
+    )
+
+
+def _means(values: Array) -> Array:
+    """Means over the cells between points (n, m): array (n - 1, m - 1)."""
+    rows = values[1:] + values[:-1]
+    return np.asarray(0.25 * (rows[:, 1:] + rows[:, :-1]))
 
 
 def _camera(points: Array) -> Array:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
@@ -11,35 +12,23 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _core
 from .arrays import Array, real_array
+from .course import Course
 from .errors import InputError
 from .frame import directors
-from .helix import Helix, helix_of
+from .helix import Helix
 from .law import SectionLaw
+from .report import Report
 from .scene import Scene
 from .surface import surface
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["Physical", "Reactions", "Report", "Sections", "State", "Wrench"]
+__all__ = ["Physical", "Reactions", "Sections", "State", "Wrench"]
 
 END = 1e-12
 """How far beyond its ends, relative to its length, a ribbon may be asked for."""
-
-
-@dataclass(frozen=True)
-class Report:
-    """How a state was found."""
-
-    method: str
-    equilibria: int
-    """Number of unloaded equilibria found."""
-    unresolved: int
-    """How many of them stand for several closer than 1e-6 in K/eta."""
-    gradient_norm: float
-    """Norm of (n3, m1, m2, m3) at the state, evaluated anew: zero but for rounding."""
 
 
 @dataclass(frozen=True)
@@ -84,31 +73,34 @@ class Physical:
     force: Array
     moment: Array
     energy: float
-    helix: Helix
+    helix: Helix | None
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class State:
-    r"""An equilibrium of an unloaded ribbon of uniform growth, clamped at its start.
+    r"""An equilibrium of an unloaded ribbon, clamped at its start.
 
-    N = M = 0 everywhere, so the strains are one root of dPi = 0 for all S and the centreline is an exact
-    helix. Lengths in units of the width a, S = X3/a in [0, L], forces in Y h a, moments in Y h a^2.
+    N = M = 0 everywhere, so that the strains at each S are a root of dPi = 0 there. Of a uniform ribbon they
+    are the same for all S and the centreline is an exact helix; of one that varies along its length they
+    follow a branch of stable roots. Lengths in units of the width a, S = X3/a in [0, L], forces in Y h a,
+    moments in Y h a^2; a and h are those of the `Ribbon`, also where its width and thickness vary.
 
     Attributes
     ----------
     scene : Scene
         What was solved.
-    strain : (4,) array
-        eps, K1, K2, K3, the same at every S.
+    course : Uniform or Along
+        How the strains run along the ribbon.
     energy : float
         Pi, mean over S, in units of Y h a.
     section_index : int
-        Number of negative eigenvalues of the 4x4 Hessian of Pi.
-    phase : str
-        "flat", "bent", "twisted" or "helical": whether K2 and K3 exceed 1e-6 thickness/width. K1 does not
-        change the name.
+        Number of negative eigenvalues of the 4x4 Hessian of Pi; the largest over S.
+    phases : tuple of str
+        "flat", "bent", "twisted" or "helical": whether K2 and K3 exceed 1e-6 thickness/width, of a ribbon
+        that varies those at S. K1 does not change the name. In the order in which they are met along S.
     resolved : bool
-        False if this stands for several equilibria closer than 1e-6 in K/eta.
+        False if this stands for several equilibria closer than 1e-6 in K/eta. Where those of a ribbon that
+        varies meet is an event of the `report` instead.
     report : Report
         How it was found.
     S : (n,) array
@@ -120,18 +112,33 @@ class State:
     """
 
     scene: Scene
-    strain: Array
+    course: Course
     energy: float
     section_index: int
-    phase: str
+    phases: tuple[str, ...]
     resolved: bool
     report: Report
     S: Array
 
     def __repr__(self) -> str:
-        named = zip(("eps", "K1", "K2", "K3"), self.strain, strict=True)
-        strain = ", ".join(f"{name}={value:.6g}" for name, value in named)
+        columns = zip(("eps", "K1", "K2", "K3"), self.course.strains(self.S).T, strict=True)
+        strain = ", ".join(f"{name}={_range(values)}" for name, values in columns)
         return f"State({self.phase}, stable={self.stable}, {strain})"
+
+    @property
+    def uniform(self) -> bool:
+        """Whether the ribbon and its growth, and so the state, are the same all along."""
+        return self.course.uniform
+
+    @property
+    def strain(self) -> Array:
+        """(4,): eps, K1, K2, K3 of a uniform state, the same at every S; an `InputError` if it varies."""
+        return self.course.strain
+
+    @property
+    def phase(self) -> str:
+        """The phase, if it is one all along, else "curved"."""
+        return self.phases[0] if len(self.phases) == 1 else "curved"
 
     @property
     def stable(self) -> bool:
@@ -196,7 +203,10 @@ class State:
         return nodes
 
     def at(self, S: ArrayLike) -> Sections:
-        """Return the state at any S in [0, L], a number or an array: exact."""
+        """Return the state at any S in [0, L], a number or an array of any shape and order.
+
+        Of a uniform ribbon it is exact; of one that varies strains and poses are as accurate as at the nodes.
+        """
         length = self.scene.ribbon.length_ratio
         expected = f"numbers in [0, {length:g}], the length over the width"
         points = real_array("S", S, expected)
@@ -207,12 +217,12 @@ class State:
         start = self.scene.start
         origin = np.zeros(3) if start.position is None else np.array(start.position)
         pose = np.array(start.quaternion)
-        position, quaternion = _core.helix(points.ravel(), self.strain, origin, pose)
-        shape = points.shape
+        places, shape = points.ravel(), points.shape
+        position, quaternion = self.course.poses(places, origin, pose)
         quaternion = quaternion.reshape((*shape, 4))
         return Sections(
             S=points,
-            strains=np.tile(self.strain, (*shape, 1)),
+            strains=self.course.strains(places).reshape((*shape, 4)),
             position=position.reshape((*shape, 3)),
             quaternion=quaternion,
             directors=directors(quaternion),
@@ -221,24 +231,30 @@ class State:
         )
 
     def deflection(self, x: ArrayLike, derivative: int = 0) -> Array:
-        """Return u1 in units of a, or an x-derivative of it: x = X2/a in [-1/2, 1/2], (...) -> (n, ...).
+        """Return u1 in units of a, or an X2/a-derivative of it: x in [-1/2, 1/2], (...) -> (n, ...).
 
-        For the quadratic law, an energy without a deflection, it is that of the full law at the same strains.
+        x is X2 over the width at S. For the quadratic law, an energy without a deflection, it is that of the
+        full law at the same strains.
         """
-        one = self.section_law.deflection(self.strain, x, derivative)
-        return np.tile(one, (self.S.size, *(1,) * one.ndim))
+        law = self.section_law
+        return self._across(lambda strain, S: law.deflection(strain, x, derivative, S))
 
     def displacements(self, x: ArrayLike) -> Array:
         """Return u1, u2, u3 of the mid-surface in units of a: x (...) -> (n, ..., 3)."""
-        one = self.section_law.displacements(self.strain, x)
-        return np.tile(one, (self.S.size, *(1,) * one.ndim))
+        law = self.section_law
+        return self._across(lambda strain, S: law.displacements(strain, x, S))
+
+    def _across(self, of: Callable[[Array, float | None], Array]) -> Array:
+        """What is `of` a section at all nodes: (n, ...)."""
+        rows = np.array([of(strain, S) for strain, S in self.course.sections(self.S)])
+        return np.tile(rows, (self.S.size // len(rows), *(1,) * (rows.ndim - 1)))
 
     def surface(self, nx: int = 41, face: float = 0.0, S: ArrayLike | None = None) -> Array:
         """Return points of the deformed ribbon, (n, nx, 3) in the fixed basis, in units of the width.
 
-        x = X2/a runs from -1/2 to 1/2 along the second axis. `face` is 0 for the mid-surface, +1 or -1 for
-        the surfaces X1 = +h/2 and -h/2, between them for a layer inside; `S` (n,) are other stations than
-        the nodes.
+        x, X2 over the width at S, runs from -1/2 to 1/2 along the second axis. `face` is 0 for the
+        mid-surface, +1 or -1 for the surfaces X1 = +h/2 and -h/2, between them for a layer inside; `S` (n,)
+        are other stations than the nodes.
 
         Notes
         -----
@@ -247,15 +263,15 @@ class State:
         return surface(self, nx, face, S)
 
     @property
-    def helix(self) -> Helix:
-        """The helix of the centreline, in units of the width."""
+    def helix(self) -> Helix | None:
+        """The helix of the centreline, in units of the width; None if the ribbon varies."""
         ribbon = self.scene.ribbon
-        return helix_of(self.strain, ribbon.length_ratio, ribbon.thickness_ratio)
+        return self.course.helix(ribbon.length_ratio, ribbon.thickness_ratio)
 
     @property
     def physical(self) -> Physical:
         """The same in the user's units: lengths x a, curvatures / a, forces x Y h a, moments x Y h a^2."""
-        ribbon = self.scene.ribbon
+        ribbon, helix = self.scene.ribbon, self.helix
         a = ribbon.width
         unit_force = ribbon.material.Y * ribbon.thickness * a
         return Physical(
@@ -265,7 +281,7 @@ class State:
             force=self.force * unit_force,
             moment=self.moment * (unit_force * a),
             energy=self.energy * unit_force,
-            helix=self.helix.scaled(a),
+            helix=None if helix is None else helix.scaled(a),
         )
 
     def plot(self, path: str | PathLike[str] | None = None) -> Figure:
@@ -282,3 +298,9 @@ class State:
         from .files import save
 
         save(self, path)
+
+
+def _range(values: Array) -> str:
+    """The value, or the least and the greatest if six figures tell them apart."""
+    least, greatest = f"{np.min(values):.6g}", f"{np.max(values):.6g}"
+    return least if least == greatest else f"[{least}, {greatest}]"

@@ -6,11 +6,13 @@ import math
 from collections.abc import Iterator
 from dataclasses import fields
 
+import numpy as np
 from rich.box import SIMPLE_HEAD
 from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from .arrays import Array
 from .helix import Helix
 from .pieces import Pieces
 from .scene import Scene
@@ -22,7 +24,9 @@ __all__ = ["summary"]
 
 def summary(scene: Scene, state: State, others: list[State]) -> Group:
     """Return the summary of `state` and of the `others` that the scene allows, to be printed by rich."""
-    return Group(_scene_table(scene, state), _state_table(state), *_others_table(others))
+    return Group(
+        _scene_table(scene, state), _state_table(state), *_events_table(state), *_others_table(state, others)
+    )
 
 
 def _scene_table(scene: Scene, state: State) -> Table:
@@ -30,7 +34,6 @@ def _scene_table(scene: Scene, state: State) -> Table:
     material = ribbon.material
     constants = ", ".join(f"{f.name} = {getattr(material, f.name):g}" for f in fields(material))
     grown = " + ".join(map(_grown, scene.growth.terms))
-    size = scene.growth.size(ribbon.thickness_ratio)
     table = Table.grid(padding=(0, 3))
     table.add_column(style="dim")
     table.add_column()
@@ -39,8 +42,13 @@ def _scene_table(scene: Scene, state: State) -> Table:
         f"{ribbon.length:g} long, {ribbon.width:g} wide, {ribbon.thickness:g} thick; "
         f"thickness/width {ribbon.thickness_ratio:g}, length/width {ribbon.length_ratio:g}",
     )
+    for name, factor in (("width", ribbon.width_pieces), ("thickness", ribbon.thickness_pieces)):
+        if factor is not None:
+            values = factor.evaluate(state.S)
+            told = f"from {np.min(values):.3g} to {np.max(values):.3g} of the above, varying along S"
+            table.add_row(name, told)
     table.add_row("material", f"{type(material).__name__}, {constants}")
-    table.add_row("growth", f"{grown}; largest growth strain {size:.3g}")
+    table.add_row("growth", f"{grown}; largest growth strain {scene.growth_size:.3g}")
     if scene.law != "full":
         table.add_row("law", scene.law)
     table.add_row("shape", Text(_described(state), style="bold"))
@@ -72,8 +80,17 @@ def _polynomial(coefficients: list[float]) -> str:
 
 
 def _described(state: State) -> str:
-    handed = state.helix.handedness
-    return state.phase if handed == "none" else f"{state.phase}, {handed}-handed"
+    """As `helical, right-handed` or `curved: flat, then bent`."""
+    if state.phases[1:]:
+        return f"{state.phase}: {', then '.join(state.phases)}"
+    handed = _handed(state)
+    return f"{state.phase}, {handed}-handed" if handed else state.phase
+
+
+def _handed(state: State) -> str:
+    """The handedness of the helix, empty without one."""
+    handed = "none" if state.helix is None else state.helix.handedness
+    return "" if handed == "none" else handed
 
 
 def _stability(state: State) -> str:
@@ -96,16 +113,17 @@ def _state_table(state: State) -> Table:
 def _state_rows(state: State) -> Iterator[tuple[str, str, str, str]]:
     names = ("axial strain", "curvature in the plane", "curvature out of the plane", "twist")
     physical = state.physical
-    for name, symbol, value, unit in zip(
-        names, ("eps", "K1", "K2", "K3"), state.strain, physical.strains[0], strict=True
+    for name, symbol, values, units in zip(
+        names, ("eps", "K1", "K2", "K3"), state.strains.T, physical.strains.T, strict=True
     ):
-        yield name, symbol, _figures(value), _figures(unit)
-    for name, symbol, field in (
-        ("radius of the helix", "R", "radius"),
-        ("pitch of the helix", "p", "pitch"),
-    ):
-        yield name, symbol, _length(state.helix, field), _length(physical.helix, field)
-    yield "turns", "", f"{state.helix.turns:.4g}", ""
+        yield name, symbol, _range(values), _range(units)
+    if state.helix is not None and physical.helix is not None:
+        for name, symbol, field in (
+            ("radius of the helix", "R", "radius"),
+            ("pitch of the helix", "p", "pitch"),
+        ):
+            yield name, symbol, _length(state.helix, field), _length(physical.helix, field)
+        yield "turns", "", f"{state.helix.turns:.4g}", ""
     yield "energy per length", "Pi", _figures(state.energy), _figures(physical.energy)
 
 
@@ -118,18 +136,41 @@ def _figures(value: float) -> str:
     return f"{value + 0.0:.6g}"  # + 0.0 shows -0.0 as 0
 
 
-def _others_table(others: list[State]) -> Iterator[RenderableType]:
-    if not others:
-        yield Text("no other equilibrium")
+def _range(values: Array) -> str:
+    """The value, or the least and the greatest if six figures tell them apart."""
+    least, greatest = _figures(np.min(values)), _figures(np.max(values))
+    return least if least == greatest else f"{least} to {greatest}"
+
+
+def _events_table(state: State) -> Iterator[RenderableType]:
+    """Where the strains are not smooth: a jump with K2 and K3 before and after."""
+    if not state.report.events:
         return
-    table = Table(title="other equilibria", title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
+    table = Table(title="along the ribbon", title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
+    table.add_column("S", justify="right", no_wrap=True)
+    table.add_column("", no_wrap=True)
+    for heading in ("K2 before", "K3", "K2 after", "K3"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    for event in state.report.events:
+        values = (f"{value + 0.0:.4g}" for value in (*event.before[2:], *event.after[2:]))
+        table.add_row(f"{event.S:.6g}", event.kind, *values)
+    yield table
+
+
+def _others_table(state: State, others: list[State]) -> Iterator[RenderableType]:
+    if not others:
+        yield Text("no other equilibrium" if state.uniform else "no other shape is stable at the start")
+        return
+    title = (
+        "other equilibria" if state.uniform else "other shapes that are stable at the start, strains there"
+    )
+    table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
     table.add_column("shape", no_wrap=True)
     for heading in ("eps", "K1", "K2", "K3", "energy"):
         table.add_column(heading, justify="right", no_wrap=True)
     table.add_column("index", no_wrap=True)
-    for state in others:
-        handed = state.helix.handedness
-        shape = state.phase if handed == "none" else f"{state.phase}, {handed}"
-        values = (f"{value + 0.0:.4g}" for value in (*state.strain, state.energy))
-        table.add_row(shape, *values, "0, stable" if state.stable else f"{state.section_index}")
+    for other in others:
+        shape = ", ".join(filter(None, (*other.phases, _handed(other))))
+        values = (f"{value + 0.0:.4g}" for value in (*other.strains[0], other.energy))
+        table.add_row(shape, *values, "0, stable" if other.stable else f"{other.section_index}")
     yield table

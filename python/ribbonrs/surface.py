@@ -6,10 +6,11 @@ A material point (X1, X2, X3) of the ribbon goes to (Liu, Li & Liu, eq. (11))
 
 with, by eq. (15) for a state that does not vary along the length,
 
-.. math:: U_1 = u_1, \quad U_2 = u_2 - X_1 (u_1' - g_{21}), \quad U_3 = u_3 + X_1 (K_3 x + g_{31}),
+.. math:: U_1 = u_1, \quad U_2 = u_2 - X_1 (u_1' - g_{21}), \quad U_3 = u_3 + X_1 (K_3 X_2 + g_{31}),
 
 where the change of thickness (zeta, of order eta^3 a) is neglected. All lengths in units of the width a,
-x = X2/a in [-1/2, 1/2], ' = d/dx.
+X2 = x w and X1 = +-eta t/2 at the faces with the factors w, t of width and thickness at S and x in
+[-1/2, 1/2], ' = d/dX2. Of a state that varies, what du1/dS adds to U3 is neglected, as in its energy.
 """
 
 from __future__ import annotations
@@ -24,9 +25,9 @@ from .check import number
 from .errors import InputError
 
 if TYPE_CHECKING:
-    from .state import State
+    from .state import Sections, State
 
-__all__ = ["layer", "section_points", "surface"]
+__all__ = ["placed", "section", "surface"]
 
 
 STATIONS = "finite numbers of shape (n,)"
@@ -46,22 +47,37 @@ def surface(state: State, nx: int = 41, face: float = 0.0, S: ArrayLike | None =
     stations = state.S if S is None else real_array("S", S, STATIONS)
     if stations.ndim != 1:
         raise InputError("S.shape", stations.shape, STATIONS)
-    return layer(state, stations, x, 0.5 * state.scene.ribbon.thickness_ratio * level)
+    sections = state.at(stations)
+    middle, fibre = section(state, sections.S, x)
+    return placed(sections, middle + level * fibre)
 
 
-def layer(state: State, S: ArrayLike, x: Array, X1: float) -> Array:
-    """Points (n, nx, 3) of the layer `X1` at the stations `S` (n,) and `x` (nx,), in units of the width."""
-    sections = state.at(S)
-    points = sections.position[:, None, :] + section_points(state, x, X1) @ sections.directors
-    return np.asarray(points, dtype=np.float64)
+def placed(sections: Sections, points: Array) -> Array:
+    """Points (n, nx, 3) in the fixed basis, from those of cross-sections, (n, nx, 3) or (1, nx, 3)."""
+    return np.asarray(sections.position[:, None, :] + points @ sections.directors, dtype=np.float64)
 
 
-def section_points(state: State, x: Array, X1: float) -> Array:
-    """Points of one cross-section relative to the centreline: array (nx, 3), components on d1, d2, d3."""
-    fields = state.scene.growth.values(x)
-    g21, g31 = (fields.get(name, np.zeros_like(x)) for name in ("g21", "g31"))
-    law = state.section_law
-    u1, u2, u3 = law.displacements(state.strain, x).T
-    slope = law.deflection(state.strain, x, derivative=1)
-    K3 = state.strain[3]
-    return np.stack([X1 + u1, x + u2 - X1 * (slope - g21), u3 + X1 * (K3 * x + g31)], axis=-1)
+def section(state: State, S: Array, x: Array) -> tuple[Array, Array]:
+    """Cross-sections at S (n,): the mid-surface relative to the centreline and the fibres to X1 = +h/2.
+
+    Arrays (n, nx, 3), or (1, nx, 3) if all are alike, components on d1, d2, d3.
+    """
+    law, ribbon = state.section_law, state.scene.ribbon
+    sections = state.course.sections(S)
+    count, places = len(sections), S[: len(sections), None]
+    middle = np.reshape([law.displacements(strain, x, at) for strain, at in sections], (count, x.size, 3))
+    slope = np.reshape([law.deflection(strain, x, 1, at) for strain, at in sections], (count, x.size))
+    K3 = np.reshape([strain[3] for strain, _ in sections], (count, 1))
+    fields = state.scene.growth.values(x, places)
+    width, thickness = (
+        1.0 if pieces is None else pieces.evaluate(places)
+        for pieces in (ribbon.width_pieces, ribbon.thickness_pieces)
+    )
+    X2 = width * x
+    middle[..., 1] += X2
+    fibre = np.empty_like(middle)
+    half = 0.5 * ribbon.thickness_ratio * thickness
+    fibre[..., 0] = half
+    fibre[..., 1] = half * (fields.get("g21", 0.0) - slope)
+    fibre[..., 2] = half * (K3 * X2 + fields.get("g31", 0.0))
+    return middle, fibre

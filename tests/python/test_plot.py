@@ -12,6 +12,7 @@ import ribbonrs as rb
 from matplotlib.collections import PolyCollection
 from matplotlib.image import imread
 from refusal import refuses
+from ribbonrs.course import Uniform
 from ribbonrs.render import MAX_TURNS, render
 
 EDGE = rb.growth.edge(0.06)
@@ -25,7 +26,7 @@ def solved(growth, length=10.0, thickness=0.1, **arguments):
 
 def with_strain(state, *strain):
     """The same ribbon in another shape, for pictures that no growth here makes."""
-    return replace(state, strain=np.array(strain))
+    return replace(state, course=Uniform(np.array(strain)))
 
 
 SHAPES = {

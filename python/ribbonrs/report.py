@@ -1,0 +1,49 @@
+"""How a state was found, and where along the ribbon it is not smooth."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+__all__ = ["Event", "Report"]
+
+
+@dataclass(frozen=True)
+class Event:
+    """A place along the ribbon where the strains are not smooth.
+
+    Attributes
+    ----------
+    S : float
+        Where.
+    kind : str
+        "bifurcation": the strains have a corner, where the shape went over to another that begins there;
+        "jump": the shape ends at a fold, and the ribbon has a kink; "growth jump": growth, width or
+        thickness jumps.
+    before, after : tuple of float
+        eps, K1, K2, K3 on both sides.
+    """
+
+    S: float
+    kind: str
+    before: tuple[float, ...]
+    after: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Report:
+    """How a state was found."""
+
+    method: str
+    equilibria: int
+    """Number of unloaded equilibria found; of a ribbon that varies, of its stable branches."""
+    unresolved: int
+    """How many of them stand for several closer than 1e-6 in K/eta."""
+    gradient_norm: float
+    """Norm of (n3, m1, m2, m3) at the state, its largest at the nodes, evaluated anew: zero but for rounding
+    and, of a ribbon that varies, for `tolerance`."""
+    events: tuple[Event, ...] = ()
+    """Where the strains are not smooth, in order of S."""
+    elements: int = 1
+    """Number of elements on which the strains are polynomials in S."""
+    tolerance: float = 0.0
+    """What these may miss of the natural shapes between their nodes, relative to the size of the strains."""

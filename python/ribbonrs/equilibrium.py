@@ -205,7 +205,7 @@ def _scene(ribbon: Ribbon, growth: Growth, i: int) -> Scene:
 
 
 def _all_equilibria(scenes: list[Scene], n: int) -> list[list[State]]:
-    """Every equilibrium of each scene; all the uniform ones are handed to the core at once."""
+    """Every equilibrium of each scene of one ribbon; the uniform ones are handed to the core at once."""
     size = count("n", n, 2)
     laws = [SectionLaw.of(scene.ribbon, scene.growth, scene.law) for scene in scenes]
     uniform = [None if law.varies else law.core() for law in laws]
@@ -214,11 +214,11 @@ def _all_equilibria(scenes: list[Scene], n: int) -> list[list[State]]:
     found = iter(
         _core.natural_shapes_of(shared) if shared[1:] else [core.natural_shapes() for core in shared]
     )
+    nodes = np.linspace(0.0, scenes[0].ribbon.length_ratio if scenes else 0.0, size, dtype=np.float64)
+    nodes.setflags(write=False)
     all_states = []
     unresolved = total = 0
     for scene, law, core in zip(scenes, laws, uniform, strict=True):
-        nodes = np.linspace(0.0, scene.ribbon.length_ratio, size, dtype=np.float64)
-        nodes.setflags(write=False)
         states = _branches(scene, law, nodes) if core is None else _shapes(scene, core, nodes, next(found))
         unresolved, total = unresolved + states[0].report.unresolved, total + len(states)
         all_states.append(states)

@@ -155,3 +155,63 @@ fn poses_are_converged() {
     let limit = fine + (fine - coarse) / 3.0;
     assert!((a.position - limit).norm() < 1e-10, "{:e}", (a.position - limit).norm());
 }
+
+/// Edge growth that exceeds the threshold of bending over an eighth of the ribbon only, by two per cent.
+#[test]
+fn a_window_of_instability_is_not_stepped_over() {
+    let threshold = (259f64.sqrt() - 7.0) / 2.0 * ETA * ETA;
+    // amplitude = 1.02 threshold (1 - (y - 0.35)^2) with y from -1 to 1.
+    let (top, y0) = (1.02 * threshold, 0.35);
+    let legendre = vec![top * (1.0 - y0 * y0 - 1.0 / 3.0), top * 2.0 * y0, -top * 2.0 / 3.0];
+    let hump = Piecewise::from_legendre(vec![0.0, LENGTH], vec![legendre]).unwrap();
+    let law = law(vec![(Amplitude::Along(hump), Growth::edge(1.0))], Amplitude::Constant(1.0));
+    let branch = &natural_branches(&law, LENGTH).unwrap()[0];
+    assert_eq!(branch.phases, [Phase::Flat, Phase::Bent, Phase::Flat]);
+    let half = (1.0 - 1.0 / 1.02f64).sqrt();
+    for (event, y) in branch.events.iter().zip([y0 - half, y0 + half]) {
+        assert_eq!(event.kind, EventKind::Bifurcation);
+        assert!((event.s - 0.5 * LENGTH * (1.0 + y)).abs() < 1e-10, "{event:?}");
+    }
+    is_pointwise_stable(&law, branch);
+}
+
+/// Growth exactly at a threshold, where flat shapes are degenerate, all along or up to a place.
+#[test]
+fn growth_may_stay_at_a_bifurcation() {
+    for (xi, stable) in [(5.0, 2), ((259f64.sqrt() - 7.0) / 2.0, 1)] {
+        let at = Piecewise::from_legendre(vec![0.0, 5.0, 10.0], vec![vec![xi], vec![xi]]).unwrap();
+        let on = Piecewise::from_legendre(vec![0.0, 5.0, 10.0], vec![vec![xi], vec![xi + 0.5, 0.5]]).unwrap();
+        for amplitude in [at, on] {
+            let growth = vec![(Amplitude::Along(amplitude), Growth::edge(ETA * ETA))];
+            let law = law(growth, Amplitude::Constant(1.0));
+            let branches = natural_branches(&law, LENGTH).unwrap();
+            assert_eq!(branches.len(), stable);
+            assert!(branches[0].breaks().len() < 100 && branches[0].events.len() <= 1);
+        }
+    }
+}
+
+/// A helix that untwists its bending and takes it up again: both corners are told.
+#[test]
+fn a_helix_becomes_a_twisted_ribbon_and_back() {
+    // xi = 0.06 + 0.02 (y^2 - 1) crosses the threshold of the twisted shape at omega = 0.2 twice.
+    let dip =
+        Piecewise::from_legendre(vec![0.0, LENGTH], vec![vec![0.04 + 0.02 / 3.0, 0.0, 0.04 / 3.0]]).unwrap();
+    let growth = vec![
+        (Amplitude::Along(dip.clone()), Growth::edge(1.0)),
+        (Amplitude::Constant(0.04), Growth::chiral(1.0)),
+    ];
+    let law = law(growth, Amplitude::Constant(1.0));
+    let branch = &natural_branches(&law, LENGTH).unwrap()[0];
+    assert_eq!(branch.phases, [Phase::Helical, Phase::Twisted, Phase::Helical]);
+    assert_eq!(branch.events.len(), 2, "{:?} {:?}", branch.events, branch.breaks());
+    // Twisted is unstable beyond k3 = omega/(1 + C/20), C = 14 - sqrt(1036), xi = (k3^2 - 2 C)/8 in units of eta^2.
+    let c = 14.0 - 1036f64.sqrt();
+    let k3 = 0.2 / (1.0 + c / 20.0);
+    let threshold = (k3 * k3 - 2.0 * c) / 8.0 * ETA * ETA;
+    for event in &branch.events {
+        assert_eq!(event.kind, EventKind::Bifurcation);
+        assert!((dip.evaluate(event.s) - threshold).abs() < 1e-12, "{event:?}");
+    }
+    is_pointwise_stable(&law, branch);
+}

@@ -7,7 +7,7 @@
 //! shape that begins there, or, if none does, jumps.
 
 use super::Phase;
-use super::natural::{self, Equilibrium};
+use super::natural::{self, Equilibrium, Settled};
 use crate::frame::{Pose, gauss_points, integrate_gauss};
 use crate::section::{RibbonLaw, Station, Strain};
 use crate::{InvalidInput, legendre};
@@ -18,14 +18,19 @@ pub const TOLERANCE: f64 = 1e-12;
 /// Gauss points of an element.
 const POINTS: usize = 12;
 
-/// Shortest element over the length of the ribbon.
-const SHORTEST: f64 = 1e-13;
+/// Shortest element over the length of the ribbon: an error of the strains there moves no point by more
+/// than rounding.
+const SHORTEST: f64 = 1e-9;
 
-/// Elements after which a branch is given up.
-const MOST_ELEMENTS: usize = 100_000;
+/// Elements after which a branch is given up, not counting those that breaks ask for.
+const MOST_ELEMENTS: usize = 10_000;
 
 /// Shapes nearer than this in `K/eta` (relative beyond 1) across a bifurcation are one branch.
 const CONTINUOUS: f64 = 1e-2;
+
+/// Rounding of the least stiffness over the greatest, and the value below which its sign is not trusted.
+const STIFFNESS_NOISE: f64 = 1e-14;
+const NEUTRAL: f64 = 1e-13;
 
 /// Why the strains are not smooth at a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,12 +100,18 @@ pub struct NaturalBranch {
 /// # Errors
 /// If the law refuses a section, none of its shapes is stable, or a branch needs too many elements.
 pub fn natural_branches(law: &RibbonLaw, length: f64) -> Result<Vec<NaturalBranch>, InvalidInput> {
-    let start = law.station(0.0)?.natural_shapes();
-    let stable = start.iter().filter(|shape| shape.section_index == 0 || !shape.resolved);
-    let mut branches: Vec<NaturalBranch> =
-        stable.map(|shape| Follower::new(law, length).follow(shape)).collect::<Result<_, _>>()?;
+    let station = law.station(0.0)?;
+    let start = station.natural_shapes();
+    let (mut branches, mut failure) =
+        (Vec::new(), InvalidInput::new("S", 0.0, "a section with a stable shape"));
+    for shape in candidates(&start) {
+        match Follower::new(law, length).follow(shape) {
+            Ok(branch) => branches.push(branch),
+            Err(error) => failure = error,
+        }
+    }
     if branches.is_empty() {
-        return Err(InvalidInput::new("S", 0.0, "a section with a stable shape"));
+        return Err(failure);
     }
     let jumps = |b: &NaturalBranch| b.events.iter().filter(|e| e.kind == EventKind::Jump).count();
     // Mirror images differ by rounding: they stay in order.
@@ -140,7 +151,6 @@ impl NaturalBranch {
             let inside = rest.partition_point(|&s| last || s < element.to);
             let (here, after) = rest.split_at(inside);
             let mut nodes: Vec<f64> = (0..=steps).map(|j| element.node(j, steps)).collect();
-            let corners = nodes.len();
             nodes.extend(here);
             nodes.sort_by(f64::total_cmp);
             let all = element.poses(&nodes, &pose);
@@ -152,7 +162,6 @@ impl NaturalBranch {
                 }
                 poses.push(all[node]);
             }
-            debug_assert!(corners + here.len() == nodes.len());
             pose = all[element_end(&nodes, element.to)];
             rest = after;
         }
@@ -240,7 +249,7 @@ impl<'a> Follower<'a> {
                         h = 4.0 * shortest;
                     }
                 }
-                if self.branch.elements.len() > MOST_ELEMENTS {
+                if self.branch.elements.len() > MOST_ELEMENTS + 10 * self.breaks.len() {
                     let expected = "growth that varies less, for the natural shape to be followed";
                     return Err(InvalidInput::new("S", s, expected));
                 }
@@ -253,7 +262,7 @@ impl<'a> Follower<'a> {
     /// The strains with which a stretch without breaks begins: the same shape, unless the growth jumps.
     fn enter(&mut self, s: f64, before: Strain) -> Result<Strain, InvalidInput> {
         let station = self.law.station(s)?;
-        if let Some((shape, _)) = stable(&station, &before) {
+        if let Some(Settled { shape, .. }) = stable(&station, &before) {
             if distance(&station, &shape.strain, &before) < 1e-6 {
                 return Ok(shape.strain);
             }
@@ -273,22 +282,31 @@ impl<'a> Follower<'a> {
         let mut strains: Vec<Strain> = Vec::with_capacity(POINTS);
         let mut work = 0.0;
         let mut phases: Vec<Phase> = Vec::new();
-        let (mut scale, mut noise) = (Strain::zeros(), 0.0_f64);
+        let (mut scale, mut noise, mut slope) = (Strain::zeros(), 0.0_f64, Strain::zeros());
+        let mut softness = Vec::with_capacity(POINTS);
         for (i, (&y, weight)) in nodes.iter().zip(weights).enumerate() {
             let station = self.law.station(place(y))?;
+            let (before, at) = match i {
+                0 | 1 => (-0.5, *start),
+                _ => (nodes[i - 2], strains[i - 2]),
+            };
             let guess = match i {
                 0 => *start,
                 // Along the line through the last two.
                 _ => {
-                    let (before, at) = if i == 1 { (-0.5, *start) } else { (nodes[i - 2], strains[i - 2]) };
-                    strains[i - 1] + (strains[i - 1] - at) * ((y - nodes[i - 1]) / (nodes[i - 1] - before))
+                    let rise = (strains[i - 1] - at) / (nodes[i - 1] - before);
+                    slope = slope.sup(&rise.abs());
+                    strains[i - 1] + rise * (y - nodes[i - 1])
                 }
             };
-            let Some((shape, rounding)) = stable(&station, &guess) else { return Ok(None) };
+            let Some(Settled { shape, noise: rounding, softness: soft }) = stable(&station, &guess) else {
+                return Ok(None);
+            };
             if i == 0 {
                 scale = natural_scale(&station);
             }
             noise = noise.max(rounding);
+            softness.push(soft);
             scale = scale.sup(&shape.strain.abs());
             work += weight * shape.energy;
             if phases.last() != Some(&shape.phase) {
@@ -302,13 +320,17 @@ impl<'a> Follower<'a> {
         });
         let element = Element { from, to, strains: series };
         let (begins, end) = (element.strain(from) - start, element.strain(to));
+        let h = to - from;
+        // Errors on an element far shorter than the ribbon hardly move it.
+        let relief = (1e-4 * self.length / h).sqrt().max(1.0);
+        // The Gauss points are rounded to this part of the element, and the strains with them.
+        let misplaced = 4.0 * f64::EPSILON * from.abs().max(to.abs()) / h;
         let resolved = (0..4).all(|c| {
             let tail = &element.strains[c][POINTS - 2..];
-            let tolerance = (TOLERANCE * scale[c]).max(noise);
+            let tolerance = (relief * TOLERANCE * scale[c]).max(noise) + misplaced * slope[c];
             tail.iter().all(|t| t.abs() <= tolerance) && begins[c].abs() <= 1e3 * tolerance
         });
-        // The last Gauss point is inside: the shape may have ended since. The growth may jump at the end.
-        if !resolved || stable(&*self.law.station(to.next_down())?, &end).is_none() {
+        if !resolved || !stays_stable(&softness) {
             return Ok(None);
         }
         self.work += (to - from) * work;
@@ -321,18 +343,19 @@ impl<'a> Follower<'a> {
         Ok(Some(end))
     }
 
-    /// Goes over the end of a stable shape at `s` to one beyond it.
+    /// Goes over the end of a stable shape just beyond `s` to one after it.
     ///
     /// Close to a bifurcation its shapes are not told apart: the first place beyond where they are is taken.
     fn cross(&mut self, s: f64, end: f64, before: &Strain) -> Result<(f64, Strain), InvalidInput> {
+        let phase = stable(&*self.law.station(s)?, before).map(|here| here.shape.phase);
         let mut gap = 4.0 * SHORTEST * self.length;
         loop {
-            let to = (s + gap).min(0.5 * (s + end));
-            let station = self.law.station(to)?;
+            let to = if s + 2.0 * gap >= end { end } else { s + gap };
+            // The growth may jump at the end.
+            let station = self.law.station(to.next_down())?;
             let shapes = station.natural_shapes();
-            let near = nearest(&station, &shapes, before);
-            let wide = gap >= WIDEST * self.length || to < s + gap;
-            let Some(near) = near.filter(|shape| shape.resolved || wide) else {
+            let wide = gap >= WIDEST * self.length || to == end;
+            let Some(near) = nearest(&station, &shapes, before).filter(|shape| shape.resolved || wide) else {
                 if wide {
                     return Err(InvalidInput::new("S", s, "a section with a stable shape"));
                 }
@@ -340,19 +363,12 @@ impl<'a> Follower<'a> {
                 continue;
             };
             let continuous = distance(&station, &near.strain, before) < CONTINUOUS;
-            let (kind, after) = if continuous {
-                (EventKind::Bifurcation, *near)
-            } else {
-                let lowest = shapes.iter().find(|shape| shape.section_index == 0).unwrap_or(near);
-                let level = lowest.energy + 1e-9 * lowest.energy.abs();
-                let lowest: Vec<Equilibrium> = shapes
-                    .iter()
-                    .filter(|shape| shape.section_index == 0 && shape.energy <= level)
-                    .copied()
-                    .collect();
-                (EventKind::Jump, nearest(&station, &lowest, before).copied().unwrap_or(*near))
-            };
-            self.branch.events.push(Event { s, kind, before: *before, after: after.strain });
+            let after = if continuous { *near } else { lowest(&station, &shapes, before).unwrap_or(*near) };
+            if !continuous || Some(after.phase) != phase {
+                let kind = if continuous { EventKind::Bifurcation } else { EventKind::Jump };
+                let place = self.last_place(s, to, before, phase)?;
+                self.branch.events.push(Event { s: place, kind, before: *before, after: after.strain });
+            }
             // Over so short a gap a line will do; a jump is at its start.
             let left = if continuous { *before } else { after.strain };
             let line = |c: usize| {
@@ -361,25 +377,78 @@ impl<'a> Follower<'a> {
             };
             self.branch.elements.push(Element { from: s, to, strains: std::array::from_fn(line) });
             self.work += (to - s) * after.energy;
+            if self.branch.phases.last() != Some(&after.phase) {
+                self.branch.phases.push(after.phase);
+            }
             return Ok((to, after.strain));
         }
     }
+
+    /// The last place to which the stable shape of this phase goes on, by bisection.
+    fn last_place(
+        &self,
+        s: f64,
+        to: f64,
+        before: &Strain,
+        phase: Option<Phase>,
+    ) -> Result<f64, InvalidInput> {
+        let (mut low, mut high, mut strain) = (s, to, *before);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            let station = self.law.station(middle)?;
+            match stable(&station, &strain).map(|settled| settled.shape) {
+                Some(shape)
+                    if Some(shape.phase) == phase
+                        && distance(&station, &shape.strain, before) < CONTINUOUS =>
+                {
+                    (low, strain) = (middle, shape.strain);
+                }
+                _ => high = middle,
+            }
+        }
+        Ok(low)
+    }
+}
+
+/// Whether the stiffness, given at the Gauss points of an element, stays positive in between: it is smooth, and
+/// its polynomial has no zero.
+fn stays_stable(softness: &[f64]) -> bool {
+    let (nodes, weights) = legendre::rule(POINTS);
+    let series = legendre::project(softness, nodes, weights, POINTS);
+    let least = softness.iter().copied().fold(f64::INFINITY, f64::min);
+    let smooth = series[POINTS - 2..].iter().all(|t| t.abs() <= (1e-3 * least).max(STIFFNESS_NOISE));
+    let grid = (0..=4 * POINTS).map(|i| i as f64 / (4 * POINTS) as f64 - 0.5);
+    smooth && grid.into_iter().all(|y| legendre::evaluate(&series, y) > -NEUTRAL)
 }
 
 /// Widest gap at a bifurcation over the length of the ribbon.
-const WIDEST: f64 = 1e-7;
+const WIDEST: f64 = 1e-6;
 
-/// The stable shape to which Newton's method leads from these strains, and the rounding of its curvatures.
-fn stable(station: &Station, strain: &Strain) -> Option<(Equilibrium, f64)> {
-    natural::settle(station, strain).filter(|(shape, _)| shape.section_index == 0)
+/// The stable shape to which Newton's method leads from these strains.
+fn stable(station: &Station, strain: &Strain) -> Option<Settled> {
+    natural::settle(station, strain).filter(|settled| settled.shape.section_index == 0)
 }
 
-/// The stable shape nearest in `K2` and `K3`; of equally near ones the first.
+/// The stable shapes; if there are none, those that stand for several.
+fn candidates(shapes: &[Equilibrium]) -> impl Iterator<Item = &Equilibrium> {
+    let any = shapes.iter().any(|shape| shape.section_index == 0);
+    shapes.iter().filter(move |shape| if any { shape.section_index == 0 } else { !shape.resolved })
+}
+
+/// The candidate nearest in `K2` and `K3`; of equally near ones the first.
 fn nearest<'a>(station: &Station, shapes: &'a [Equilibrium], strain: &Strain) -> Option<&'a Equilibrium> {
-    let candidates = || shapes.iter().filter(|shape| shape.section_index == 0 || !shape.resolved);
     let to = |shape: &Equilibrium| distance(station, &shape.strain, strain);
-    let least = candidates().map(to).fold(f64::INFINITY, f64::min);
-    candidates().find(|shape| to(shape) <= least * (1.0 + 1e-6))
+    let least = candidates(shapes).map(to).fold(f64::INFINITY, f64::min);
+    candidates(shapes).find(|shape| to(shape) <= least * (1.0 + 1e-6))
+}
+
+/// The stable shape of lowest energy; of mirror images the nearest.
+fn lowest(station: &Station, shapes: &[Equilibrium], strain: &Strain) -> Option<Equilibrium> {
+    let lowest = candidates(shapes).map(|shape| shape.energy).fold(f64::INFINITY, f64::min);
+    let level = lowest + 1e-9 * lowest.abs();
+    let images: Vec<Equilibrium> =
+        candidates(shapes).filter(|shape| shape.energy <= level).copied().collect();
+    nearest(station, &images, strain).copied()
 }
 
 /// Distance in `K2` and `K3` over the local thickness ratio, relative beyond 1.

@@ -84,9 +84,17 @@ impl Station {
     }
 }
 
-/// The equilibrium to which Newton's method leads from these strains, in the ribbon's units and not checked
-/// against others nearby, with the rounding error of its curvatures: that of the balance over the stiffness.
-pub(super) fn settle(station: &Station, start: &Strain) -> Option<(Equilibrium, f64)> {
+/// An equilibrium in the ribbon's units, not checked against others nearby.
+pub(super) struct Settled {
+    pub shape: Equilibrium,
+    /// Rounding error of the curvatures: that of the balance over the stiffness.
+    pub noise: f64,
+    /// Least eigenvalue of the scaled Hessian in `K2`, `K3`, over the greatest.
+    pub softness: f64,
+}
+
+/// The equilibrium to which Newton's method leads from these strains.
+pub(super) fn settle(station: &Station, start: &Strain) -> Option<Settled> {
     let section = station.section();
     let (local, eta) = (station.local(start), section.eta());
     let point = polish(section, Point { k: local[2] / eta, q: local[3] / eta, resolved: true })?;
@@ -96,7 +104,7 @@ pub(super) fn settle(station: &Station, start: &Strain) -> Option<(Equilibrium, 
     let here = balance(section, point.k, point.q);
     let [low, high] = here.eigenvalues();
     let noise = 16.0 * f64::EPSILON * here.scale[0].max(here.scale[1]) / low.abs().min(high.abs());
-    Some((shape, noise * eta / station.width()))
+    Some(Settled { shape, noise: noise * eta / station.width(), softness: low / high.abs().max(1.0) })
 }
 
 /// Marks the softest shape as unresolved if the count of all cannot be right.

@@ -176,7 +176,9 @@ def _name_profiles(axes: Axes, x: Array, deflections: Array, places: Array) -> N
         named.setdefault(round(20 * (deflection[-1] - low) / (high - low)), []).append(f"{S:.4g}")
     for row, names in named.items():
         height = low + row / 20 * (high - low)
-        axes.text(0.56, height, "$S$ = " + ", ".join(names), color=INK, fontsize=8, va="center")
+        name = "$S$ = " + ", ".join(names)
+        box = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
+        axes.text(0.56, height, name, color=INK, fontsize=8, va="center", bbox=box)
 
 
 def _draw_section(axes: Axes, state: State) -> None:
@@ -197,7 +199,7 @@ def _draw_curvatures(axes: Axes, state: State) -> None:
     strains = state.course.strains(S)
     for i, style in zip((2, 3, 1), DASHES, strict=True):
         if np.max(np.abs(strains[:, i])) > SMALLEST * state.scene.ribbon.thickness_ratio:
-            axes.plot(S, strains[:, i], style, color=INK, linewidth=1.4, label=f"$K_{i} a$")
+            axes.plot(S, strains[:, i], style, color=INK, linewidth=1.4, label=f"$K_{i}$")
     axes.axhline(0.0, color="0.75", linewidth=0.8, zorder=0)
     for event in state.report.events:
         axes.axvline(event.S, color="0.75", linewidth=0.8, zorder=0)
@@ -211,7 +213,8 @@ def _title(state: State) -> str:
     strains = state.course.strains(state.S)
     names = (r"\varepsilon", "K_1", "K_2", "K_3")
     values = ",  ".join(f"${name}$ {_range(column)}" for name, column in zip(names, strains.T, strict=True))
-    return f"{', '.join(state.phases)}, {'stable' if state.stable else 'unstable'}:  {values}"
+    phase = f"{state.phase} ({', '.join(state.phases)})" if state.phases[1:] else state.phase
+    return f"{phase}, {'stable' if state.stable else 'unstable'}:  {values}"
 
 
 def _range(values: Array) -> str:

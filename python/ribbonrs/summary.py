@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import fields
+from itertools import groupby
 
 import numpy as np
 from rich.box import SIMPLE_HEAD
@@ -33,7 +34,8 @@ def _scene_table(scene: Scene, state: State) -> Table:
     ribbon = scene.ribbon
     material = ribbon.material
     constants = ", ".join(f"{f.name} = {getattr(material, f.name):g}" for f in fields(material))
-    grown = " + ".join(map(_grown, scene.growth.terms))
+    alike = groupby(scene.growth.terms, _grown)
+    grown = " + ".join(f"{_names([term.name for term in terms])} {told}" for told, terms in alike)
     table = Table.grid(padding=(0, 3))
     table.add_column(style="dim")
     table.add_column()
@@ -44,7 +46,7 @@ def _scene_table(scene: Scene, state: State) -> Table:
     )
     for name, factor in (("width", ribbon.width_pieces), ("thickness", ribbon.thickness_pieces)):
         if factor is not None:
-            values = factor.evaluate(state.S)
+            values = factor.evaluate([*factor.breaks, *state.S])
             told = f"from {np.min(values):.3g} to {np.max(values):.3g} of the above, varying along S"
             table.add_row(name, told)
     table.add_row("material", f"{type(material).__name__}, {constants}")
@@ -56,13 +58,18 @@ def _scene_table(scene: Scene, state: State) -> Table:
     return table
 
 
+def _names(names: list[str]) -> str:
+    """One name, or the first and the last of many growths that are told alike, as stations are."""
+    return names[0] if len(names) == 1 else f"{names[0]} ... {names[-1]}"
+
+
 def _grown(term: Term) -> str:
-    """A growth with its fields: the amplitude alone does not tell a cylinder from a saddle."""
+    """A growth without its name, with its fields: the amplitude does not tell a cylinder from a saddle."""
     amplitude = term.amplitude
     factor = amplitude if isinstance(amplitude, float) else 1.0
     fields = ", ".join(f"{name} = {_profile(shape, factor)}" for name, shape in term.shape)
     size = f"{amplitude:g}" if isinstance(amplitude, float) else "varying along S"
-    return f"{term.name} {size} ({fields})"
+    return f"{size} ({fields})"
 
 
 def _profile(shape: Shape, factor: float) -> str:

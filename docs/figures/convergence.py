@@ -5,8 +5,8 @@
 Left: a step of axial growth. The exact solution is the reference of the tests
 (tests/python/exact_pieces.py), 50 digits; against it the Legendre basis of the whole width with n functions,
 with and without the energy of what it leaves out, the finite-difference relaxation of the tests with n cells,
-and this package, whose n is the number of modes, 12. Right: smooth growth given by n samples, joined by lines or
-by a spline, against the function.
+and this package, whose n is the number of modes, 12. Right: smooth growth given by n samples, joined by lines
+or by a spline, against the function.
 """
 
 from __future__ import annotations
@@ -120,8 +120,8 @@ def main() -> None:
                 label=name,
             )
         axis.set_xlabel(title)
-        axis.set_ylim(1e-20, 1.0)
-        axis.legend(fontsize=8, loc="lower left")
+        axis.set_ylim(1e-22, 1.0)
+        axis.legend(fontsize=8, loc="lower right")
         axis.grid(alpha=0.3)
     axes[0].set_ylabel("relative error of the energy")
     figure.savefig(Path(__file__).with_suffix(".png"), dpi=150)

@@ -56,6 +56,14 @@ class SectionLaw:
 class NaturalBranch:
     """A stable natural shape all along a ribbon that varies."""
 
+    def __new__(
+        cls,
+        breaks: Sequence[float],
+        series: Sequence[Sequence[Sequence[float]]],
+        events: Sequence[tuple[float, str, Sequence[float], Sequence[float]]],
+        energy: float,
+        phases: Sequence[str],
+    ) -> NaturalBranch: ...
     @property
     def breaks(self) -> _Array: ...
     @property

@@ -44,6 +44,9 @@ pub enum EventKind {
 }
 
 impl EventKind {
+    /// All kinds.
+    pub const ALL: [Self; 3] = [Self::Bifurcation, Self::Jump, Self::GrowthJump];
+
     /// The name of the kind.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -122,6 +125,32 @@ pub fn natural_branches(law: &RibbonLaw, length: f64) -> Result<Vec<NaturalBranc
 }
 
 impl NaturalBranch {
+    /// A branch from its parts, as [`NaturalBranch::breaks`], [`NaturalBranch::series`] and the fields give them.
+    ///
+    /// # Errors
+    /// If there are no elements, or the numbers of breaks and series do not match.
+    pub fn from_parts(
+        breaks: &[f64],
+        series: Vec<[Vec<f64>; 4]>,
+        events: Vec<Event>,
+        energy: f64,
+        phases: Vec<Phase>,
+    ) -> Result<Self, InvalidInput> {
+        if series.is_empty() || breaks.len() != series.len() + 1 {
+            let found = format!("{} breaks and {} elements", breaks.len(), series.len());
+            return Err(InvalidInput::new("breaks", found, "one break more than elements"));
+        }
+        let element = |(ends, strains): (&[f64], _)| Element { from: ends[0], to: ends[1], strains };
+        let elements = breaks.windows(2).zip(series).map(element).collect();
+        Ok(Self { elements, events, energy, phases })
+    }
+
+    /// The strains on each element: Legendre series of [`legendre`].
+    #[must_use]
+    pub fn series(&self) -> Vec<[Vec<f64>; 4]> {
+        self.elements.iter().map(|element| element.strains.clone()).collect()
+    }
+
     /// Ends of the elements.
     #[must_use]
     pub fn breaks(&self) -> Vec<f64> {
@@ -262,10 +291,10 @@ impl<'a> Follower<'a> {
     /// The strains with which a stretch without breaks begins: the same shape, unless the growth jumps.
     fn enter(&mut self, s: f64, before: Strain) -> Result<Strain, InvalidInput> {
         let station = self.law.station(s)?;
-        if let Some(Settled { shape, .. }) = stable(&station, &before) {
-            if distance(&station, &shape.strain, &before) < 1e-6 {
-                return Ok(shape.strain);
-            }
+        if let Some(Settled { shape, .. }) = stable(&station, &before)
+            && distance(&station, &shape.strain, &before) < 1e-6
+        {
+            return Ok(shape.strain);
         }
         let shapes = station.natural_shapes();
         let after = nearest(&station, &shapes, &before).map_or(before, |shape| shape.strain);

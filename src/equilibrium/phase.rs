@@ -21,6 +21,9 @@ pub enum Phase {
 }
 
 impl Phase {
+    /// All phases.
+    pub const ALL: [Self; 4] = [Self::Flat, Self::Bent, Self::Twisted, Self::Helical];
+
     /// The phase of a strain in a ribbon of thickness ratio `eta`.
     #[must_use]
     pub fn of(strain: &Strain, eta: f64) -> Self {

@@ -3,6 +3,7 @@
 //! Checks of what a user writes, names and units are the Python package's; here only what could make
 //! the core panic or mislead is refused, as `ValueError`.
 
+mod branch;
 mod frame;
 mod section;
 
@@ -33,7 +34,9 @@ fn strains_from(array: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Strain>> {
 #[pymodule]
 mod _core {
     #[pymodule_export]
+    use super::branch::NaturalBranch;
+    #[pymodule_export]
     use super::frame::{gauss_points, helix, integrate_gauss, integrate_nodal, integrate_segments};
     #[pymodule_export]
-    use super::section::{NaturalBranch, SectionLaw, natural_shapes_of};
+    use super::section::{SectionLaw, natural_shapes_of};
 }

@@ -9,11 +9,10 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
-use super::frame::{Poses, poses};
+use super::branch::NaturalBranch;
 use super::strains_from;
 use crate::InvalidInput;
-use crate::equilibrium::{self, Equilibrium, Event};
-use crate::frame::Pose;
+use crate::equilibrium::{self, Equilibrium};
 use crate::growth::{Growth, Profile};
 use crate::material::PlaneStress;
 use crate::piecewise::Piecewise;
@@ -267,64 +266,7 @@ impl SectionLaw {
     /// Every shape that is stable at S = 0, followed to S = `length`: fewest jumps, then lowest energy first.
     fn natural_branches(&self, py: Python<'_>, length: f64) -> PyResult<Vec<NaturalBranch>> {
         let branches = py.detach(|| equilibrium::natural_branches(&self.law, length))?;
-        Ok(branches.into_iter().map(|branch| NaturalBranch { branch }).collect())
-    }
-}
-
-/// A stable natural shape all along a ribbon that varies.
-#[pyclass(frozen, module = "ribbonrs._core")]
-pub struct NaturalBranch {
-    branch: equilibrium::NaturalBranch,
-}
-
-#[pymethods]
-impl NaturalBranch {
-    /// Ends of the elements on which the strains are polynomials.
-    #[getter]
-    fn breaks<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        self.branch.breaks().into_pyarray(py)
-    }
-
-    /// Mean energy over the length.
-    #[getter]
-    fn energy(&self) -> f64 {
-        self.branch.energy
-    }
-
-    /// The phases met along the ribbon, each run once.
-    #[getter]
-    fn phases(&self) -> Vec<&'static str> {
-        self.branch.phases.iter().map(|phase| phase.name()).collect()
-    }
-
-    /// Where the strains are not smooth: S, kind, strains before and after.
-    #[getter]
-    fn events(&self) -> Vec<(f64, &'static str, [f64; 4], [f64; 4])> {
-        let event = |e: &Event| (e.s, e.kind.name(), e.before.into(), e.after.into());
-        self.branch.events.iter().map(event).collect()
-    }
-
-    /// Strains (m, 4) at S (m,).
-    #[expect(non_snake_case, reason = "the name in Python")]
-    fn strains<'py>(&self, py: Python<'py>, S: PyReadonlyArray1<'py, f64>) -> Bound<'py, PyArray2<f64>> {
-        let strains: Vec<Strain> = S.as_array().iter().map(|&s| self.branch.strain(s)).collect();
-        Array2::from_shape_fn((strains.len(), 4), |(i, c)| strains[i][c]).into_pyarray(py)
-    }
-
-    /// Positions (m, 3) and unit quaternions (m, 4), scalar first, at ascending S (m,).
-    #[expect(non_snake_case, reason = "the name in Python")]
-    fn poses<'py>(
-        &self,
-        py: Python<'py>,
-        S: PyReadonlyArray1<'py, f64>,
-        position: [f64; 3],
-        quaternion: [f64; 4],
-    ) -> PyResult<Poses<'py>> {
-        let s = S.as_array().to_vec();
-        if s.windows(2).any(|w| w[0] > w[1]) {
-            return Err(InvalidInput::new("S", "descending", "ascending numbers").into());
-        }
-        Ok(poses(py, || self.branch.poses(&s, &Pose::new(position, quaternion))))
+        Ok(branches.into_iter().map(NaturalBranch::from).collect())
     }
 }
 

@@ -168,9 +168,7 @@ def _others_table(state: State, others: list[State]) -> Iterator[RenderableType]
     if not others:
         yield Text("no other equilibrium" if state.uniform else "no other shape is stable at the start")
         return
-    title = (
-        "other equilibria" if state.uniform else "other shapes that are stable at the start, strains there"
-    )
+    title = "other equilibria" if state.uniform else "other stable shapes, strains at S = 0"
     table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
     table.add_column("shape", no_wrap=True)
     for heading in ("eps", "K1", "K2", "K3", "energy"):

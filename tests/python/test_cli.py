@@ -1,6 +1,7 @@
 """The command line: what it prints, writes, and how it ends."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -213,3 +214,70 @@ def test_growth_is_told_by_its_fields(scene, capsys):
     shown = " ".join(capsys.readouterr().out.split())
     assert "edge 0.06 (gamma33 = 0.24 x^2)" in shown
     assert "thickness 0.02 (d33 = 0.02, d22 = -0.01)" in shown
+
+
+# --- ribbons that vary along their length
+
+BENDS = SCENE.replace("edge = 0.06\nchiral = 0.04", "edge = { S = [0, 15], values = [0, 0.08] }")
+SNAPS = SCENE.replace(
+    "edge = 0.06\nchiral = 0.04", "edge = 0.08\nthickness = { S = [0, 15], values = [-0.05, 0.6] }"
+)
+
+
+def rows_of(screen):
+    """The cells of each line of the screen, by the first."""
+    lines = [re.split(r"  +", line.strip()) for line in screen.splitlines()]
+    return {cells[0]: cells[1:] for cells in lines}
+
+
+def test_summary_of_a_ribbon_that_varies(scene, capsys):
+    taper = "width_profile = { S = [0, 15], values = [1, 0.8] }\n[growth]"
+    assert main(["run", scene(BENDS.replace("[growth]", taper))]) == 0
+    screen, errors = capsys.readouterr()
+    assert errors == ""
+    growth = rb.growth.edge(([0.0, 15.0], [0.0, 0.08]))
+    state = rb.solve(rb.Scene(rb.Ribbon(30.0, 2.0, 0.2, width_profile=([0.0, 15.0], [1.0, 0.8])), growth))
+    rows = rows_of(screen)
+    assert rows["width"] == ["from 0.8 to 1 of the above, varying along S"]
+    assert rows["growth"] == ["edge varying along S (gamma33 = 4 x^2); largest growth strain 0.08"]
+    assert rows["shape"] == ["curved: flat, then bent"]
+    K2 = state.strains[-1, 2]
+    assert rows["curvature out of the plane"] == ["K2", f"0 to {K2:.6g}", f"0 to {K2 / 2.0:.6g}"]
+    assert rows["twist"] == ["K3", "0", "0"]
+    (event,) = state.report.events
+    assert rows[f"{event.S:.6g}"][0] == "bifurcation"
+    assert "helix" not in screen
+    assert "no other shape is stable at the start" in screen
+
+
+def test_jumps_warn_in_one_line(scene, capsys):
+    flipped = SNAPS.replace("-0.05, 0.6", "0.05, -0.6")
+    for text in (SNAPS, flipped):
+        assert main(["run", scene(text)]) == 0
+        screen, errors = capsys.readouterr()
+        # the branch without a jump is shown, the other one listed
+        assert errors == ""
+        assert "other stable shapes, strains at S = 0" in screen
+    assert main(["run", scene(SNAPS.replace("-0.05", "-0.3"))]) == 0
+    screen, errors = capsys.readouterr()
+    assert errors.startswith("ribbonrs: warning: the shape jumps along the ribbon: S = ")
+    assert errors.count("\n") == 1
+    (row,) = [cells for cells in rows_of(screen).values() if cells[:1] == ["jump"]]
+    before, _, after, _ = map(float, row[1:])
+    assert before > 0.0 > after
+
+
+def test_no_stable_shape_along_the_ribbon_is_status_1(scene, capsys):
+    assert main(["run", scene('law = "quadratic"' + BENDS)]) == 1
+    screen, errors = capsys.readouterr()
+    assert screen == ""
+    assert errors.startswith("ribbonrs: no natural shape all along the ribbon, S = ")
+    assert errors.count("\n") == 1
+
+
+def test_stations_are_told_together(scene, capsys):
+    Path("leaf.csv").write_text("S, x, g33\n0, -0.5, 0.01\n0, 0.5, 0.01\n15, -0.5, 0.02\n15, 0.5, 0.02\n")
+    assert main(["run", scene(SCENE.replace("edge = 0.06", 'csv = "leaf.csv"'))]) == 0
+    (told,) = rows_of(capsys.readouterr().out)["growth"]
+    stations = "station0_measured ... station1_measured varying along S (gamma33 = a function of degree 1)"
+    assert told == f"chiral 0.04 (d23 = 0.04) + {stations}; largest growth strain 0.02"

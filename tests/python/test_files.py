@@ -11,6 +11,7 @@ import pytest
 import ribbonrs as rb
 from refusal import refuses
 from ribbonrs.files import replacing
+from ribbonrs.pieces import Pieces
 
 LEAF = rb.Ribbon(
     length=30.0, width=1.5, thickness=0.15, material=rb.Orthotropic(Q33=3e6, Q22=1e6, Q23=3e5, G=4e5)
@@ -204,3 +205,77 @@ def test_files_have_the_permissions_of_any_new_file(state, tmp_path):
     plain.write_text("")
     state.save(tmp_path / "leaf.obj")
     assert stat.S_IMODE((tmp_path / "leaf.obj").stat().st_mode) == stat.S_IMODE(plain.stat().st_mode)
+
+
+# --- ribbons that vary along their length
+
+
+def thinner(S):
+    return np.exp2(-0.2 * S)
+
+
+@pytest.fixture(scope="module")
+def petal():
+    ribbon = rb.Ribbon(10.0, 2.0, 0.2, width_profile=([0.0, 5.0], [1.0, 0.5]), thickness_profile=thinner)
+    growth = rb.growth.edge(lambda S: 0.06 + 0.01 * S) + rb.growth.chiral(([0.0, 5.0], [0.02, 0.04]))
+    step = rb.growth.Profile(gamma22=[[0.01], [0.02]], breaks=[0.1])
+    with pytest.warns(rb.RibbonWarning, match=r"growth\.size"):
+        return rb.solve(rb.Scene(ribbon, growth + step), n=N)
+
+
+def evaluated(record, places):
+    """A function as it is in a file."""
+    return Pieces(tuple(record["breaks"]), tuple(map(tuple, record["coefficients"]))).evaluate(places)
+
+
+def test_npz_of_a_ribbon_that_varies(petal, tmp_path):
+    petal.save(tmp_path / "petal.npz")
+    S = petal.S
+    with np.load(tmp_path / "petal.npz", allow_pickle=False) as data:
+        for name in ("S", "strains", "position", "quaternion", "directors", "force", "moment"):
+            assert np.array_equal(data[name], getattr(petal, name)), name
+        assert np.ptp(data["strains"][:, 2]) > 0.01
+        assert np.array_equal(data["surface"], 2.0 * petal.surface(nx=NX))
+        assert np.array_equal(data["u"], petal.displacements(data["x"]))
+        assert tuple(data["phases"]) == petal.phases
+        # there is no helix, and the note says so
+        for name in ("handedness", "turns", "physical_radius", "physical_pitch"):
+            assert name not in data
+            assert name in data["units"].item()
+        scene, report = json.loads(data["scene"].item()), json.loads(data["report"].item())
+    # functions as their pieces, samples as they were given
+    edge, chiral, step = scene["growth"]["terms"]
+    assert evaluated(edge["amplitude"], S) == pytest.approx(0.06 + 0.01 * S, rel=1e-14)
+    assert evaluated(chiral["amplitude"], S) == pytest.approx(0.02 + 0.004 * S, rel=1e-14)
+    assert (edge["shape"], chiral["shape"]) == ([["gamma33", [0.0, 0.0, 4.0]]], [["d23", [1.0]]])
+    ((key, field),) = step["shape"]
+    assert key == "gamma22"
+    assert evaluated(field, [0.0, 0.2]).tolist() == [0.01, 0.02]
+    assert scene["ribbon"]["width_profile"] == [[0.0, 5.0], [1.0, 0.5]]
+    assert evaluated(scene["ribbon"]["thickness_profile"], S) == pytest.approx(thinner(S), abs=1e-14)
+    assert report["elements"] == petal.report.elements
+    assert report["events"] == []
+
+
+def test_events_are_in_the_report(tmp_path):
+    rising = rb.Scene(LEAF, rb.growth.edge(([0.0, 20.0], [0.0, 0.08])))
+    state = rb.solve(rising)
+    state.save(tmp_path / "leaf.npz")
+    with np.load(tmp_path / "leaf.npz", allow_pickle=False) as data:
+        (event,) = json.loads(data["report"].item())["events"]
+    assert event == {
+        key: list(v) if isinstance(v, tuple) else v for key, v in vars(state.report.events[0]).items()
+    }
+
+
+def test_vtp_of_a_ribbon_that_varies(petal, tmp_path):
+    petal.save(tmp_path / "petal.vtp")
+    _, arrays = read_vtp(tmp_path / "petal.vtp")
+    points = arrays["Points", "Points"].reshape(N, NX, 3)
+    assert np.array_equal(points, 2.0 * petal.surface(nx=NX))
+    x = np.linspace(-0.5, 0.5, NX)
+    assert np.array_equal(arrays["PointData", "u1"].reshape(N, NX), 2.0 * petal.deflection(x))
+    assert np.array_equal(arrays["PointData", "strains"], np.repeat(petal.strains, NX, axis=0))
+    width = np.sum(np.linalg.norm(np.diff(points, axis=1), axis=-1), axis=1)
+    # the sections are curved, and their g22 is 1 to 2 %
+    assert width == pytest.approx(2.0 * np.interp(petal.S, [0.0, 5.0], [1.0, 0.5]), rel=0.05)

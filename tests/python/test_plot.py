@@ -44,6 +44,21 @@ SHAPES = {
 }
 
 
+VARYING = {
+    "rising": lambda: solved(rb.growth.edge(([0.0, 10.0], [0.0, 0.08]))),
+    "stepped": lambda: solved(rb.growth.chiral(([0.0, 4.0, 4.0, 10.0], [0.0, 0.0, 0.1, 0.1]))),
+    "coiled": lambda: solved(HELICAL + rb.growth.edge(lambda S: 0.01 * np.sin(S), name="wave"), length=40.0),
+    "in its plane": lambda: solved(
+        rb.growth.Profile(gamma33=[0.0, 0.1], amplitude=([0.0, 10.0], [0.0, 1.0]))
+    ),
+    "tapered": lambda: rb.solve(
+        rb.Scene(rb.Ribbon(10.0, 1.0, 0.1, width_profile=([0.0, 5.0, 10.0], [0.3, 1.0, 0.2])), EDGE)
+    ),
+    "very long": lambda: solved(rb.growth.chiral(([0.0, 1e3, 1e4], [0.04, 0.08, 0.08])), length=1e4),
+}
+ALL = SHAPES | VARYING
+
+
 @pytest.mark.parametrize("name", SHAPES)
 def test_every_shape_fills_its_picture(name):
     state = SHAPES[name]()
@@ -76,9 +91,9 @@ def test_every_shape_fills_its_picture(name):
         assert f"{value:.4g}" in title
 
 
-@pytest.mark.parametrize("name", SHAPES)
+@pytest.mark.parametrize("name", ALL)
 def test_the_picture_is_a_parallel_projection_of_the_body(name):
-    state = SHAPES[name]()
+    state = ALL[name]()
     picture = render(state)
     assert picture.axes.T @ picture.axes == pytest.approx(np.eye(2), abs=1e-14)
     # a body of these proportions has this silhouette at most, and the corners of the ends are in it
@@ -93,9 +108,9 @@ def test_the_picture_is_a_parallel_projection_of_the_body(name):
     assert np.all((picture.gloss >= 0.0) & (picture.gloss < 0.5))
 
 
-@pytest.mark.parametrize("name", SHAPES)
+@pytest.mark.parametrize("name", ALL)
 def test_only_what_faces_the_viewer_is_drawn(name):
-    cells = render(SHAPES[name]()).cells
+    cells = render(ALL[name]()).cells
     ahead, side = cells[:, 2] - cells[:, 0], cells[:, 3] - cells[:, 1]
     # corners run clockwise as seen from outside
     assert np.all(side[:, 0] * ahead[:, 1] - side[:, 1] * ahead[:, 0] > 0.0)
@@ -177,3 +192,62 @@ def test_a_section_wider_than_the_ribbon_fits_its_axes():
     section = next(axes for axes in state.plot().axes if "cross-section" in axes.get_title())
     low, high = section.get_xlim()
     assert low < -0.59 < 0.59 < high
+
+
+@pytest.mark.parametrize("name", VARYING)
+def test_a_ribbon_that_varies_shows_its_curvatures(name):
+    state = VARYING[name]()
+    figure = state.plot()
+    space, bar, profile, beside = figure.axes
+    (cells,) = (c for c in space.collections if isinstance(c, PolyCollection))
+    corners = np.concatenate([path.vertices for path in cells.get_paths()])
+    limits = np.array([space.get_xlim(), space.get_ylim()])
+    inside = (corners - limits[:, 0]) / (limits[:, 1] - limits[:, 0])
+    assert inside.min() >= 0.0
+    assert inside.max() <= 1.0
+    # profiles at both ends and halfway, within the colours of the bar
+    length = state.scene.ribbon.length_ratio
+    x = np.linspace(-0.5, 0.5, 201)
+    profiles = [line.get_ydata() for line in profile.lines if len(line.get_xdata()) == 201]
+    for S, shown in zip((0.0, 0.5 * length, length), profiles, strict=True):
+        strain = state.at(S).strains
+        exact = state.section_law.deflection(strain, x, S=S) / state.scene.ribbon.thickness_ratio
+        assert shown == pytest.approx(exact, abs=1e-14)
+    low, high = bar.get_ylim()
+    assert low == -high
+    everywhere = np.abs(state.deflection(x)).max() / state.scene.ribbon.thickness_ratio
+    if render(state).drawn == 1.0:
+        assert everywhere <= high
+    named = ", ".join(text.get_text().removeprefix("$S$ = ") for text in profile.texts).split(", ")
+    assert sorted(map(float, named)) == pytest.approx([0.0, 0.5 * length, length], rel=1e-3)
+    # K2, K3, K1 along S, each if there is any, and the events
+    curves = {line.get_label(): line for line in beside.lines if line.get_label().startswith("$")}
+    for i in (1, 2, 3):
+        if np.abs(state.strains[:, i]).max() <= 1e-7:
+            assert f"$K_{i}$" not in curves
+        else:
+            S, K = curves[f"$K_{i}$"].get_data()
+            assert np.array_equal(K, state.at(S).strains[:, i])
+    marks = [line.get_xdata()[0] for line in beside.lines if len(set(line.get_xdata())) == 1]
+    assert marks == [event.S for event in state.report.events]
+    title = figure.get_suptitle()
+    assert title.startswith(state.phase)
+    assert all(phase in title for phase in state.phases)
+
+
+def test_a_coil_that_varies_is_cut_where_it_has_turned_enough():
+    state = VARYING["very long"]()
+    S = render(state).drawn * 1e4
+    turned = np.trapezoid(state.at(np.linspace(0.0, S, 20001)).strains[:, 3], dx=S / 20000) / (2.0 * math.pi)
+    assert turned == pytest.approx(MAX_TURNS, rel=1e-3)
+    assert any("the first 20 of" in text.get_text() for text in state.plot().axes[0].texts)
+
+
+def test_the_colours_are_the_deflection():
+    """In the middle of cells, which are short of the edges by half their size."""
+    for name in ("tapered", "rising", "stepped"):
+        state = VARYING[name]()
+        picture = render(state)
+        deflection = state.deflection(np.linspace(-0.5, 0.5, 201))
+        assert picture.u1.max() == pytest.approx(deflection.max(), rel=0.06)
+        assert picture.u1.min() == pytest.approx(deflection.min(), rel=0.06)

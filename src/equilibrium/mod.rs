@@ -8,6 +8,7 @@
 
 mod along;
 mod bound;
+mod branch;
 mod cubic;
 mod natural;
 mod phase;
@@ -15,6 +16,7 @@ mod reduced;
 mod roots;
 mod second_order;
 
-pub use along::{Event, EventKind, NaturalBranch, TOLERANCE, natural_branches};
+pub use along::{TOLERANCE, natural_branches};
+pub use branch::{Event, EventKind, NaturalBranch};
 pub use natural::{Equilibrium, natural_shapes};
 pub use phase::{PHASE_TOLERANCE, Phase};

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Iterable
 from typing import TypeAlias, overload
 
 import numpy as np
@@ -16,6 +17,7 @@ from .course import Along, Uniform
 from .errors import ConvergenceError, InputError, RibbonWarning
 from .growth import Growth
 from .law import SectionLaw
+from .pieces import Pieces
 from .report import Event, Report
 from .ribbon import Ribbon
 from .scene import Scene
@@ -126,8 +128,9 @@ def solve(
     Warns
     -----
     RibbonWarning
-        Where the shape jumps along the ribbon; and with ``law="quadratic"``, if \|K2\|/eta > 7.46
-        (incompressible material), where its series diverges.
+        Where the shape jumps along the ribbon; if it bends so much that the law of growth that jumps loses
+        digits; and with ``law="quadratic"``, if \|K2\|/eta > 7.46 (incompressible material), where its series
+        diverges.
 
     Examples
     --------
@@ -165,6 +168,7 @@ def chosen(states: list[State], guess: State | ArrayLike | None = None) -> State
     scene = state.scene
     if scene.law == "quadratic":
         _warn_beyond_radius(state)
+    _warn_beyond_modes(state)
     jumps = [event for event in state.report.events if event.kind == "jump"]
     if jumps:
         told = "; ".join(map(_told, jumps))
@@ -180,6 +184,21 @@ def _warn_beyond_radius(state: State) -> None:
     if k2 > radius:
         warnings.warn(
             f"|K2|/eta = {k2:.3g} is beyond {radius:.3g}, where the quadratic law's series diverges",
+            RibbonWarning,
+            stacklevel=4,
+        )
+
+
+def _warn_beyond_modes(state: State) -> None:
+    """Of growth that jumps, in very thin ribbons, the bending may be too strong for the modes there are."""
+    if not any(isinstance(shape, Pieces) for term in state.scene.growth.terms for _, shape in term.shape):
+        return
+    i = int(np.argmax(np.abs(state.strains[:, 2])))
+    k2, S = abs(float(state.strains[i, 2])), float(state.S[i])
+    resolved = state.section_law.core().resolved_curvature(S)
+    if k2 > resolved:
+        warnings.warn(
+            f"|K2| = {k2:.3g} at S = {S:.6g} is beyond {resolved:.3g}, up to which growth that jumps is resolved",
             RibbonWarning,
             stacklevel=4,
         )
@@ -208,27 +227,45 @@ def _all_equilibria(scenes: list[Scene], n: int) -> list[list[State]]:
     """Every equilibrium of each scene of one ribbon; the uniform ones are handed to the core at once."""
     size = count("n", n, 2)
     laws = [SectionLaw.of(scene.ribbon, scene.growth, scene.law) for scene in scenes]
-    uniform = [None if law.varies else law.core() for law in laws]
-    shared = [core for core in uniform if core is not None]
+    shared = [law.core() for law in laws if not law.varies]
     # A single one is not worth waking the other cores.
-    found = iter(
-        _core.natural_shapes_of(shared) if shared[1:] else [core.natural_shapes() for core in shared]
-    )
+    shapes = _core.natural_shapes_of(shared) if shared[1:] else [core.natural_shapes() for core in shared]
+    found = iter(shapes)
     nodes = np.linspace(0.0, scenes[0].ribbon.length_ratio if scenes else 0.0, size, dtype=np.float64)
     nodes.setflags(write=False)
-    all_states = []
-    unresolved = total = 0
-    for scene, law, core in zip(scenes, laws, uniform, strict=True):
-        states = _branches(scene, law, nodes) if core is None else _shapes(scene, core, nodes, next(found))
-        unresolved, total = unresolved + states[0].report.unresolved, total + len(states)
-        all_states.append(states)
+    all_states = [
+        _branches(scene, law, nodes) if law.varies else _shapes(scene, law.core(), nodes, next(found))
+        for scene, law in zip(scenes, laws, strict=True)
+    ]
+    _warn_unresolved([state for states in all_states for state in states])
+    _warn_beyond_modes(zip(laws, all_states, strict=True))
+    return all_states
+
+
+def _warn_unresolved(states: list[State]) -> None:
+    unresolved = sum(not state.resolved for state in states)
     if unresolved:
         warnings.warn(
-            f"{unresolved} of {total} equilibria stand for several closer than 1e-6 in K/eta",
+            f"{unresolved} of {len(states)} equilibria stand for several closer than 1e-6 in K/eta",
             RibbonWarning,
-            stacklevel=4,
+            stacklevel=5,
         )
-    return all_states
+
+
+def _warn_beyond_modes(found: Iterable[tuple[SectionLaw, list[State]]]) -> None:
+    """Warn, once, of a shape that bends, where it bends most, beyond what the law of its growth resolves."""
+    for law, states in found:
+        core = law.core()
+        if not law.varies and core.resolved_curvature() == math.inf:
+            continue
+        for state in states:
+            K2 = np.abs(state.course.strains(state.S)[:, 2])
+            most = int(np.argmax(K2))
+            limit = core.resolved_curvature(float(state.S[most]))
+            if K2[most] > limit:
+                message = f"|K2| = {K2[most]:.3g} is beyond {limit:.3g}, where growth that jumps loses digits"
+                warnings.warn(message, RibbonWarning, stacklevel=5)
+                return
 
 
 def _shapes(scene: Scene, core: _core.SectionLaw, nodes: Array, shapes: _Shapes) -> list[State]:

@@ -145,3 +145,10 @@ def test_pieces_of_one_polynomial_are_the_polynomial() -> None:
 
 def test_jumps_of_g31_are_refused() -> None:
     refuses("growth.profile.g31", lambda: rb.growth.Profile(g31=[[0.0], [0.01]], breaks=[0.1]))
+
+
+def test_bending_beyond_the_modes_is_told() -> None:
+    growth = rb.growth.Profile(gamma33=[[0.0], [0.05]], breaks=[0.1])
+    with pytest.warns(rb.RibbonWarning, match="beyond"):
+        rb.solve(rb.Scene(rb.Ribbon(10.0, 1.0, 2e-6), growth))
+    rb.solve(rb.Scene(rb.Ribbon(10.0, 1.0, 1e-2), growth))  # without a warning, which would be an error

@@ -17,7 +17,6 @@ from .course import Along, Uniform
 from .errors import ConvergenceError, InputError, RibbonWarning
 from .growth import Growth
 from .law import SectionLaw
-from .pieces import Pieces
 from .report import Event, Report
 from .ribbon import Ribbon
 from .scene import Scene
@@ -87,7 +86,7 @@ def natural_shapes(ribbon: Ribbon, growth: Growth | _Growths) -> list[State] | l
     [['flat'], ['bent', 'bent'], ['bent', 'bent']]
     """
     if not isinstance(growth, list | tuple):
-        return equilibria(Scene(ribbon, growth))
+        return _all_equilibria([Scene(ribbon, growth)], NODES)[0]
     scenes = [_scene(ribbon, one, i) for i, one in enumerate(growth)]
     return _all_equilibria(scenes, NODES)
 
@@ -153,13 +152,12 @@ def solve(
         raise InputError("tol", tol, expected)
     if degree is not None:
         count("degree", degree, 1)
-    return chosen(equilibria(scene, n), guess)
+    return chosen(_all_equilibria([scene], n)[0], guess)
 
 
 def equilibria(scene: Scene, n: int = NODES) -> list[State]:
     """Return every equilibrium of `scene`, with its law and start, in the order of `natural_shapes`."""
-    (states,) = _all_equilibria([scene], n)
-    return states
+    return _all_equilibria([scene], n)[0]
 
 
 def chosen(states: list[State], guess: State | ArrayLike | None = None) -> State:
@@ -168,7 +166,6 @@ def chosen(states: list[State], guess: State | ArrayLike | None = None) -> State
     scene = state.scene
     if scene.law == "quadratic":
         _warn_beyond_radius(state)
-    _warn_beyond_modes(state)
     jumps = [event for event in state.report.events if event.kind == "jump"]
     if jumps:
         told = "; ".join(map(_told, jumps))
@@ -184,21 +181,6 @@ def _warn_beyond_radius(state: State) -> None:
     if k2 > radius:
         warnings.warn(
             f"|K2|/eta = {k2:.3g} is beyond {radius:.3g}, where the quadratic law's series diverges",
-            RibbonWarning,
-            stacklevel=4,
-        )
-
-
-def _warn_beyond_modes(state: State) -> None:
-    """Of growth that jumps, in very thin ribbons, the bending may be too strong for the modes there are."""
-    if not any(isinstance(shape, Pieces) for term in state.scene.growth.terms for _, shape in term.shape):
-        return
-    i = int(np.argmax(np.abs(state.strains[:, 2])))
-    k2, S = abs(float(state.strains[i, 2])), float(state.S[i])
-    resolved = state.section_law.core().resolved_curvature(S)
-    if k2 > resolved:
-        warnings.warn(
-            f"|K2| = {k2:.3g} at S = {S:.6g} is beyond {resolved:.3g}, up to which growth that jumps is resolved",
             RibbonWarning,
             stacklevel=4,
         )
@@ -248,12 +230,12 @@ def _warn_unresolved(states: list[State]) -> None:
         warnings.warn(
             f"{unresolved} of {len(states)} equilibria stand for several closer than 1e-6 in K/eta",
             RibbonWarning,
-            stacklevel=5,
+            stacklevel=4,
         )
 
 
 def _warn_beyond_modes(found: Iterable[tuple[SectionLaw, list[State]]]) -> None:
-    """Warn, once, of a shape that bends, where it bends most, beyond what the law of its growth resolves."""
+    """Warn, once, of a shape that bends, where it bends most, beyond the modes of growth that jumps."""
     for law, states in found:
         core = law.core()
         if not law.varies and core.resolved_curvature() == math.inf:
@@ -264,7 +246,7 @@ def _warn_beyond_modes(found: Iterable[tuple[SectionLaw, list[State]]]) -> None:
             limit = core.resolved_curvature(float(state.S[most]))
             if K2[most] > limit:
                 message = f"|K2| = {K2[most]:.3g} is beyond {limit:.3g}, where growth that jumps loses digits"
-                warnings.warn(message, RibbonWarning, stacklevel=5)
+                warnings.warn(message, RibbonWarning, stacklevel=4)
                 return
 
 

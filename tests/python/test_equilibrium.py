@@ -256,6 +256,25 @@ def test_guesses_refused(field, bad):
     refuses(field, lambda: rb.solve(rb.Scene(LEAF, edge(1.0)), guess=bad))
 
 
+@pytest.mark.parametrize("along", [1.0, ([0.0, 1e7], [1.0, 1.0])])
+def test_growth_that_jumps_is_told_where_it_loses_digits(along):
+    thin = rb.Ribbon(length=10.0, width=1.0, thickness=1e-6)
+
+    def step(size):
+        return rb.growth.Profile(d33=[[size], [0.8 * size]], breaks=[0.1], amplitude=along)
+
+    rb.natural_shapes(thin, step(0.08))
+    rb.natural_shapes(thin, rb.growth.thickness(0.5))  # without a jump there is no limit
+    for found in (
+        lambda: rb.natural_shapes(thin, [step(0.5), step(0.4)]),
+        lambda: rb.natural_shapes(thin, step(0.5)),
+        lambda: rb.solve(rb.Scene(thin, step(0.5))),
+    ):
+        with pytest.warns(rb.RibbonWarning, match=r"\|K2\| = 0\.[0-9]+ is beyond 0\.0819, where") as caught:
+            found()
+        assert [warning.filename for warning in caught] == [__file__]  # once, where it was called
+
+
 # --- the quadratic law, eq. (59)
 
 

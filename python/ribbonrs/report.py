@@ -46,4 +46,5 @@ class Report:
     elements: int = 1
     """Number of elements on which the strains are polynomials in S."""
     tolerance: float = 0.0
-    """What these may miss of the natural shapes between their nodes, relative to the size of the strains."""
+    """What these may miss of the natural shapes, relative to the size of the strains; more, in proportion to
+    the root of their number in the length, those shorter than 1e-4 of it, which are next to an event."""

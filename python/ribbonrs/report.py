@@ -46,5 +46,5 @@ class Report:
     elements: int = 1
     """Number of elements on which the strains are polynomials in S."""
     tolerance: float = 0.0
-    """What these may miss of the natural shapes, relative to the size of the strains; more, in proportion to
-    the root of their number in the length, those shorter than 1e-4 of it, which are next to an event."""
+    """What these may miss of the natural shapes, relative to the size of the strains; more where they are
+    shorter than 1e-4 of the ribbon, next to an event."""

@@ -1,6 +1,8 @@
 """States of ribbons whose growth, width or thickness varies along their length."""
 
+import copy
 import math
+import pickle
 
 import numpy as np
 import pytest
@@ -27,9 +29,9 @@ def solved(growth, ribbon=LEAF, **arguments):
     return rb.solve(rb.Scene(ribbon, growth), **arguments)
 
 
-def beside(state, strain):
-    """The stable natural shape nearest to this strain, of a uniform ribbon."""
-    stable = [other for other in state if other.stable]
+def beside(states, strain):
+    """The stable one of these states of a uniform ribbon that is nearest to this strain."""
+    stable = [other for other in states if other.stable]
     return min(stable, key=lambda other: np.linalg.norm(other.strain - strain))
 
 
@@ -260,6 +262,15 @@ def test_what_a_state_that_varies_does_not_have():
     assert state.physical.helix is None
     assert repr(state).startswith("State(curved, stable=True, eps=[")
     assert ", K1=0, K2=[0, 0.4" in repr(state)
+
+
+def test_a_copy_is_the_same_state():
+    state = solved(rb.growth.edge(([0.0, 10.0], [0.0, 0.08])) + rb.growth.chiral(0.04))
+    for copied in (pickle.loads(pickle.dumps(state)), copy.deepcopy(state)):
+        assert copied.report == state.report
+        S = np.linspace(0.0, 10.0, 333)
+        assert np.array_equal(copied.at(S).strains, state.at(S).strains)
+        assert np.array_equal(copied.at(S).position, state.at(S).position)
 
 
 def test_physical_units():

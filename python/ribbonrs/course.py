@@ -1,11 +1,11 @@
-r"""How the strains of a state run along the ribbon: the same everywhere, or along a branch."""
+"""How the strains of a state run along the ribbon: the same everywhere, or along a branch."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol
+from typing import TypeAlias
 
 import numpy as np
 
@@ -17,64 +17,37 @@ from .helix import Helix, helix_of
 __all__ = ["Along", "Course", "Uniform"]
 
 
-class Course(Protocol):
-    """eps, K1, K2, K3 and the poses that follow from them, at S (m,) in any order."""
-
-    @property
-    def uniform(self) -> bool:
-        """Whether the strains are the same at every S because the ribbon is."""
-
-    @property
-    def strain(self) -> Array:
-        """(4,): the strains of a uniform state."""
-
-    def strains(self, S: Array) -> Array:
-        """(m, 4)."""
-
-    def poses(self, S: Array, position: Array, quaternion: Array) -> tuple[Array, Array]:
-        """Positions (m, 3) and quaternions (m, 4), from the pose at S = 0."""
-
-    def sections(self, S: Array) -> list[tuple[Array, float | None]]:
-        """The strains (4,) and S of each cross-section at S (m,); one, whose S is None, if all are alike."""
-
-    def turns(self, S: Array) -> Array:
-        r"""(m,): turns of the directors from 0 to S, the integral of \|K\|/(2 pi)."""
-
-    def helix(self, length: float, thickness_ratio: float) -> Helix | None:
-        """The helix of the centreline, None if it is none."""
-
-
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Uniform:
-    """The same strains (4,) everywhere: an exact helix."""
+    """The same strains (4,) everywhere, because the ribbon is the same: an exact helix."""
 
     strain: Array
     uniform = True
 
     def strains(self, S: Array) -> Array:
-        """(m, 4)."""
+        """Return the strains at S (m,), in any order: array (m, 4)."""
         return np.tile(self.strain, (S.size, 1))
 
     def poses(self, S: Array, position: Array, quaternion: Array) -> tuple[Array, Array]:
-        """Positions (m, 3) and quaternions (m, 4)."""
+        """Return positions (m, 3) and quaternions (m, 4) at S (m,), in any order, from the pose at S = 0."""
         return _core.helix(S, self.strain, position, quaternion)
 
     def sections(self, S: Array) -> list[tuple[Array, float | None]]:
-        """One for all."""
+        """Return the strains (4,) and S of each cross-section at S (m,); here one without S, all are alike."""
         return [(self.strain, None)]
 
     def turns(self, S: Array) -> Array:
-        """(m,)."""
+        r"""Return the turns of the directors from 0 to S (m,), the integral of \|K\|/(2 pi)."""
         return np.asarray(S * (math.hypot(*self.strain[1:]) / (2.0 * math.pi)))
 
-    def helix(self, length: float, thickness_ratio: float) -> Helix:
-        """The helix."""
+    def helix(self, length: float, thickness_ratio: float) -> Helix | None:
+        """Return the helix of the centreline."""
         return helix_of(self.strain, length, thickness_ratio)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Along:
-    """Strains that vary with S in [0, `length`], along a branch of natural shapes."""
+    """Strains that vary with S in [0, `length`], along a branch of natural shapes; methods as `Uniform`."""
 
     branch: _core.NaturalBranch
     length: float
@@ -87,11 +60,11 @@ class Along:
         raise InputError("state.strain", "different along the ribbon", expected)
 
     def strains(self, S: Array) -> Array:
-        """(m, 4): where the strains jump those to the right."""
+        """Return the strains, where they jump those to the right."""
         return self.branch.strains(S) + 0.0  # no negative zeros
 
     def poses(self, S: Array, position: Array, quaternion: Array) -> tuple[Array, Array]:
-        """Positions (m, 3) and quaternions (m, 4)."""
+        """Return positions and quaternions."""
         order = np.argsort(S)
         back = np.empty_like(order)
         back[order] = np.arange(order.size)
@@ -99,11 +72,11 @@ class Along:
         return positions[back], quaternions[back]
 
     def sections(self, S: Array) -> list[tuple[Array, float | None]]:
-        """Every one."""
+        """Return the strains and S of every one."""
         return list(zip(self.strains(S), S.tolist(), strict=True))
 
     def turns(self, S: Array) -> Array:
-        """(m,), as drawings need them: by the trapezoidal rule."""
+        """Return the turns, as drawings need them: by the trapezoidal rule."""
         places, turns = self._turns
         return np.interp(S, places, turns)
 
@@ -114,5 +87,10 @@ class Along:
         steps = np.diff(places) * (rate[1:] + rate[:-1]) / 2.0
         return places, np.concatenate([[0.0], np.cumsum(steps)])
 
-    def helix(self, length: float, thickness_ratio: float) -> None:
-        """None: the centreline is no helix."""
+    def helix(self, length: float, thickness_ratio: float) -> Helix | None:
+        """Return None: the centreline is no helix."""
+        return None
+
+
+Course: TypeAlias = Uniform | Along
+"""How the strains of a state run along the ribbon."""

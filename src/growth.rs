@@ -35,6 +35,16 @@ impl Profile {
         zero(&self.polynomial) && self.pieces.as_ref().is_none_or(|p| p.pieces().iter().all(zero))
     }
 
+    /// The value of a profile that is the same all over the width.
+    #[must_use]
+    pub fn constant(&self) -> Option<f64> {
+        match (self.polynomial.as_slice(), &self.pieces) {
+            ([], None) => Some(0.0),
+            (&[constant], None) => Some(constant),
+            _ => None,
+        }
+    }
+
     fn add(&mut self, factor: f64, other: &Self) {
         let mine = &mut self.polynomial;
         mine.resize(mine.len().max(other.polynomial.len()), 0.0);

@@ -213,7 +213,7 @@ mod tests {
             let mut gamma33 = vec![0.0; degree + 1];
             gamma33[degree] = 2f64.powi(degree as i32);
             let growth = Growth { gamma33: gamma33.into(), ..Growth::default() };
-            let reduction = Reduction::new(&growth, &PlaneStress::incompressible());
+            let reduction = Reduction::new(growth.clone(), &PlaneStress::incompressible());
             let law = GeneralLaw::new(&reduction, None, eta);
             for level in 0..SIZES.len() - 1 {
                 for fraction in [1.0, 0.5, 0.1, 1e-3] {
@@ -238,7 +238,7 @@ mod tests {
         let growth = Growth::edge(0.7) + Growth::thickness(0.2, -0.1);
         let eta = 0.1;
         for stiffness in [PlaneStress::incompressible(), PlaneStress::new(1.0, 2.0, 0.3, 0.2).unwrap()] {
-            let reduction = Reduction::new(&growth, &stiffness);
+            let reduction = Reduction::new(growth.clone(), &stiffness);
             let general = GeneralLaw::new(&reduction, None, eta);
             let closed = super::super::ClosedForm::new(&reduction, eta).unwrap();
             for k in [0.0, 1e-12, 1e-3, 1.0, 7.5, 23.9, 24.1, 300.0, 1e4, 1e6] {

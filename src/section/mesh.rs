@@ -63,6 +63,10 @@ impl Mesh {
         if coefficients.is_empty() {
             return self.zero();
         }
+        if let Some(&[c0, c1, c2]) = coefficients.first_chunk().filter(|_| coefficients.len() == 3) {
+            let shifted = |(m, h): (f64, f64)| [c0 + m * (c1 + m * c2), h * (c1 + 2.0 * m * c2), h * h * c2];
+            return self.pieces().map(|piece| legendre::from_monomials(&shifted(piece))).collect();
+        }
         let horner = |x: f64| coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c);
         self.sampled(coefficients.len(), |_, m, h, y| horner(m + h * y))
     }
@@ -183,11 +187,18 @@ impl Mesh {
 
     /// Takes out the components on `1` and `x`, twice: what is left is orthogonal to rounding.
     pub fn remove_linear(&self, f: &mut Series) {
-        for direction in
-            [self.polynomial(&[1.0]), self.polynomial(&[0.0, 12f64.sqrt()])].iter().cycle().take(4)
-        {
-            let component = self.dot(f, direction);
-            *f = axpy(-component, direction, f);
+        // On a piece x = m + h y, and y = p_1/sqrt 12.
+        let slant = 1.0 / 12f64.sqrt();
+        f.iter_mut().for_each(|series| series.resize(series.len().max(2), 0.0));
+        for _ in 0..2 {
+            let mean = self.mean(f);
+            f.iter_mut().for_each(|series| series[0] -= mean);
+            let moments = self.pieces().zip(f.iter()).map(|((m, h), s)| h * (m * s[0] + h * slant * s[1]));
+            let slope = 12.0 * moments.sum::<f64>();
+            for ((m, h), series) in self.pieces().zip(f.iter_mut()) {
+                series[0] -= slope * m;
+                series[1] -= slope * h * slant;
+            }
         }
     }
 

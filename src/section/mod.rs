@@ -123,7 +123,7 @@ impl Section {
     /// # Ok::<(), ribbonrs::InvalidInput>(())
     /// ```
     pub fn new(eta: f64, growth: &Growth, stiffness: &PlaneStress, form: Form) -> Result<Self, InvalidInput> {
-        Self::with_reach(eta, growth, stiffness, form, None)
+        Self::with_reach(eta, growth.clone(), stiffness, form, None)
     }
 
     /// The same with the modes of a sum of growths that this one is part of, so that they are found once.
@@ -132,7 +132,7 @@ impl Section {
     /// As [`Section::new`].
     pub fn with_reach(
         eta: f64,
-        growth: &Growth,
+        growth: Growth,
         stiffness: &PlaneStress,
         form: Form,
         reach: Option<Arc<Reach>>,
@@ -141,6 +141,7 @@ impl Section {
             return Err(InvalidInput::new("eta", eta, "a thickness ratio in (0, 1)"));
         }
         growth.validate()?;
+        let published = PublishedSaddle::new(&growth, eta);
         let reduction = Reduction::new(growth, stiffness);
         let closed = ClosedForm::new(&reduction, eta);
         let reach = match reach {
@@ -158,9 +159,8 @@ impl Section {
                 (form, law.map(|law| Box::new(law) as _))
             }
             (Form::PublishedSaddle, _) => {
-                let law = PublishedSaddle::new(growth, eta);
                 let incompressible = *stiffness == PlaneStress::incompressible();
-                (form, law.filter(|_| incompressible).map(|law| Box::new(law) as _))
+                (form, published.filter(|_| incompressible).map(|law| Box::new(law) as _))
             }
         };
         let relaxation = relaxation.ok_or_else(|| {

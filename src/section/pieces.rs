@@ -323,7 +323,7 @@ mod tests {
                 (0..count).map(|i| vec![f64::from((i * 7919) % 13), f64::from(i % 3), 1.0]).collect();
             let steps = Piecewise::from_legendre(breaks, pieces).unwrap();
             let growth = Growth { gamma33: steps.clone().into(), d22: steps.into(), ..Growth::default() };
-            let r = Reduction::new(&growth, &PlaneStress::incompressible());
+            let r = Reduction::new(growth.clone(), &PlaneStress::incompressible());
             let reach = Reach::new(&[r]).unwrap();
             for (level, most) in [(0, 20), (1, 40), (2, 100)] {
                 assert!(reach.modes(level).sigma.len() <= most, "{count} {level}");

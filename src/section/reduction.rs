@@ -5,7 +5,7 @@
 
 use super::basis;
 use super::mesh::{Mesh, Series, axpy};
-use crate::growth::{Growth, Profile};
+use crate::growth::Growth;
 use crate::legendre;
 use crate::material::{PlaneStress, SectionConstants};
 
@@ -55,21 +55,28 @@ pub struct Reduction {
 impl Reduction {
     /// Integrates the fields of `growth`, which must have passed [`Growth::validate`].
     #[must_use]
-    pub fn new(growth: &Growth, stiffness: &PlaneStress) -> Self {
-        Self::on(Mesh::of(growth), growth, stiffness)
+    pub fn new(growth: Growth, stiffness: &PlaneStress) -> Self {
+        Self::on(Mesh::of(&growth), growth, stiffness)
     }
 
     /// The same on a finer mesh.
     #[must_use]
-    pub fn on(mesh: Mesh, growth: &Growth, stiffness: &PlaneStress) -> Self {
+    pub fn on(mesh: Mesh, growth: Growth, stiffness: &PlaneStress) -> Self {
         let material = stiffness.section_constants();
-        let (d33, d33_variance) = mean_and_variance(&mesh, || mesh.profile(&growth.d33), &[&growth.d33]);
+        let d33 = || mesh.profile(&growth.d33);
+        let (d33, d33_variance) = match growth.d33.constant() {
+            Some(constant) => (constant, 0.0),
+            None => mean_and_variance(&mesh, &d33()),
+        };
         let twist = || {
             axpy(-0.5, &mesh.derivative(&growth.g31), &axpy(0.5, &mesh.profile(&growth.d23), &mesh.zero()))
         };
-        let (k3, k3_variance) = mean_and_variance(&mesh, twist, &[&growth.g31, &growth.d23]);
+        let (k3, k3_variance) = match growth.d23.constant() {
+            Some(constant) if growth.g31.is_zero() => (0.5 * constant, 0.0),
+            _ => mean_and_variance(&mesh, &twist()),
+        };
         let (mut s, mut delta) = (mesh.zero(), 0.0);
-        let bent = natural_bending(&mesh, growth, material.nu);
+        let bent = natural_bending(&mesh, &growth, material.nu);
         if bent.iter().any(|piece| !piece.is_empty()) {
             // The mean is `t` itself and enters exactly; only the rest goes through the basis.
             delta = mesh.mean(&bent);
@@ -95,15 +102,17 @@ impl Reduction {
             delta,
             gamma: mesh.zero(),
             s,
-            growth: growth.clone(),
+            growth,
             mesh,
         };
-        if axial.len() > 3 || growth.gamma33.pieces.is_some() {
+        let axial = &reduction.growth.gamma33;
+        if axial.polynomial.len() > 3 || axial.pieces.is_some() {
             reduction.gamma = reduction.gamma33();
             reduction.mesh.take_parabola(&mut reduction.gamma);
         }
-        if let Some(pieces) = &growth.gamma33.pieces {
-            reduction.add_moments(pieces.refined(reduction.mesh.breaks()).pieces());
+        if let Some(pieces) = &reduction.growth.gamma33.pieces {
+            let part = pieces.refined(reduction.mesh.breaks());
+            reduction.add_moments(part.pieces());
         }
         reduction
     }
@@ -244,11 +253,6 @@ fn natural_bending(mesh: &Mesh, growth: &Growth, nu: f64) -> Series {
     axpy(nu, &mesh.profile(&growth.d33), &mesh.profile(&growth.d22))
 }
 
-/// Mean and variance of a combination of fields, which costs nothing if they are zero.
-fn mean_and_variance(mesh: &Mesh, series: impl Fn() -> Series, fields: &[&Profile]) -> (f64, f64) {
-    if fields.iter().all(|field| field.is_zero()) {
-        return (0.0, 0.0);
-    }
-    let series = series();
-    (mesh.mean(&series), mesh.variance(&series))
+fn mean_and_variance(mesh: &Mesh, series: &Series) -> (f64, f64) {
+    (mesh.mean(series), mesh.variance(series))
 }

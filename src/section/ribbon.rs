@@ -186,7 +186,7 @@ impl RibbonLaw {
         }
         let eta = spec.eta * thickness / width;
         let reach = self.reach(&growth, active);
-        let section = Section::with_reach(eta, &growth, &spec.stiffness, spec.form, reach)?;
+        let section = Section::with_reach(eta, growth, &spec.stiffness, spec.form, reach)?;
         Ok(Station { section, width, weight: width * thickness })
     }
 
@@ -203,7 +203,7 @@ impl RibbonLaw {
         }
         // Gradients through the thickness scale with the width, the rest does not.
         let parts = active.iter().flat_map(|&i| self.spec.growth[i].1.clone().split());
-        let reduce = |part: Growth| Reduction::on(mesh.clone(), &part, &self.spec.stiffness);
+        let reduce = |part: Growth| Reduction::on(mesh.clone(), part, &self.spec.stiffness);
         let reductions: Vec<Reduction> = parts.map(reduce).collect();
         let reach = Arc::new(Reach::new(&reductions)?);
         reaches.insert(active, Arc::clone(&reach));

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeAlias
 
@@ -17,12 +16,13 @@ from .helix import Helix, helix_of
 __all__ = ["Along", "Course", "Uniform"]
 
 
-@dataclass(frozen=True, eq=False, repr=False)
 class Uniform:
     """The same strains (4,) everywhere, because the ribbon is the same: an exact helix."""
 
-    strain: Array
     uniform = True
+
+    def __init__(self, strain: Array) -> None:
+        self.strain = strain
 
     def strains(self, S: Array) -> Array:
         """Return the strains at S (m,), in any order: array (m, 4)."""
@@ -33,7 +33,7 @@ class Uniform:
         return _core.helix(S, self.strain, position, quaternion)
 
     def sections(self, S: Array) -> list[tuple[Array, float | None]]:
-        """Return the strains (4,) and S of each cross-section at S (m,); here one without S, all are alike."""
+        """Return strains (4,) and S of each cross-section at S (m,); here one, without S: all are alike."""
         return [(self.strain, None)]
 
     def turns(self, S: Array) -> Array:
@@ -45,13 +45,14 @@ class Uniform:
         return helix_of(self.strain, length, thickness_ratio)
 
 
-@dataclass(frozen=True, eq=False, repr=False)
 class Along:
     """Strains that vary with S in [0, `length`], along a branch of natural shapes; methods as `Uniform`."""
 
-    branch: _core.NaturalBranch
-    length: float
     uniform = False
+
+    def __init__(self, branch: _core.NaturalBranch, length: float) -> None:
+        self.branch = branch
+        self.length = length
 
     @property
     def strain(self) -> Array:

@@ -132,3 +132,47 @@ fn pieces_of_a_polynomial_are_the_polynomial() {
         }
     }
 }
+
+/// Many profiles whose amplitudes are cubics of `S` span no more than four growths, and one that is constant.
+#[test]
+fn many_profiles_along_the_ribbon_share_few_modes() {
+    let stiffness = PlaneStress::incompressible();
+    let profile = |i: u32| {
+        let breaks = (0..=5)
+            .map(|j| {
+                if j % 5 == 0 {
+                    f64::from(j) / 5.0 - 0.5
+                } else {
+                    f64::from(j) / 5.0 - 0.5 + 0.003 * f64::from(i)
+                }
+            })
+            .collect();
+        let steps = (0..5).map(|j| vec![0.01 * f64::from((i * 7 + j * 3) % 5)]).collect();
+        Growth { gamma33: Piecewise::from_legendre(breaks, steps).unwrap().into(), ..Growth::default() }
+    };
+    let cubic = |i: u32| {
+        let coefficients = (0..4).map(|n| 0.1 * f64::from((i + 3 * n) % 4 + 1)).collect();
+        Amplitude::Along(Piecewise::from_legendre(vec![0.0, 10.0], vec![coefficients]).unwrap())
+    };
+    let growth: Vec<(Amplitude, Growth)> =
+        (0..20).map(|i| (if i % 2 == 0 { cubic(i) } else { Amplitude::Constant(0.3) }, profile(i))).collect();
+    let spec = RibbonSpec {
+        eta: 0.1,
+        stiffness,
+        form: Form::Auto,
+        growth: growth.clone(),
+        width: Amplitude::Constant(1.0),
+        thickness: Amplitude::Constant(1.0),
+    };
+    let law = RibbonLaw::new(spec).unwrap();
+    for s in [1.0, 7.3] {
+        let mut there = Growth::default();
+        for (amplitude, profile) in &growth {
+            there.add_scaled(amplitude.at(s), 1.0, profile);
+        }
+        let alone = Section::new(0.1, &there, &stiffness, Form::Auto).unwrap();
+        let strain = Strain::new(0.01, 0.003, 0.4, 0.2);
+        let (a, b) = (law.station(s).unwrap().section().energy(&strain), alone.energy(&strain));
+        assert!((a - b).abs() <= 1e-14 * b, "{s}: {a} {b}");
+    }
+}

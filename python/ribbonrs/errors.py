@@ -87,6 +87,8 @@ class ConvergenceError(RibbonError, RuntimeError):
 
 _SHORT = reprlib.Repr()
 _SHORT.maxstring = _SHORT.maxother = 80
+LONGEST = 200
+"""Characters of a value that are shown."""
 
 
 def shown(value: object) -> str:
@@ -94,6 +96,7 @@ def shown(value: object) -> str:
     if isinstance(value, np.generic):
         value = value.item()
     try:
-        return " ".join(_SHORT.repr(value).split())
+        text = " ".join(_SHORT.repr(value).split())
     except ValueError:  # an integer of more digits than Python prints
         return "a huge integer"
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 3]}..."

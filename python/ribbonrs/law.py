@@ -127,8 +127,15 @@ class SectionLaw:
     def core(self, furthest: float = 0.0) -> _core.SectionLaw:
         """The law in the core, with functions of S resolved up to `furthest` at least."""
         if self._core is None or furthest > self._reach:
-            self._reach = max(furthest, 2.0 * self._reach, 1.0)
-            self._core = self._made(self._reach)
+            # Further than asked, not to resolve anew at each step, unless functions end before.
+            for reach in (max(furthest, 2.0 * self._reach), furthest):
+                try:
+                    self._core, self._reach = self._made(reach or SHORTEST), reach
+                    break
+                except InputError:
+                    if reach == furthest:
+                        raise
+        assert self._core is not None
         return self._core
 
     @property
@@ -187,6 +194,8 @@ class SectionLaw:
         outside = points[np.abs(points) > 0.5]
         if outside.size:
             raise InputError("x", float(outside[0]), "numbers in [-1/2, 1/2]")
+        if S is not None and real_array("S", S, "a number").ndim:
+            raise InputError("S", S, "a number: where along the ribbon this one section is")
         place = self._places(S, ())
         return one, points, 0.0 if place is None else float(place[0])
 
@@ -222,6 +231,9 @@ class SectionLaw:
                 start, end = max(start, pieces.domain[0]), min(end, pieces.domain[1])
         return start, end * (1.0 + END)
 
+
+SHORTEST = 1.0
+"""Up to which S functions of S are resolved for the section at S = 0."""
 
 PLACES = "finite numbers S = X3/a >= 0, of the leading shape of the strains"
 """What S may be."""

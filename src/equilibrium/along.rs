@@ -25,6 +25,10 @@ const SHORTEST: f64 = 1e-9;
 /// Elements after which a branch is given up, not counting those that breaks ask for.
 const MOST_ELEMENTS: usize = 10_000;
 
+/// Crossings without an element between them after which a branch is given up: it stays where shapes are not
+/// told apart.
+const MOST_CROSSINGS: usize = 100;
+
 /// Shapes nearer than this in `K/eta` (relative beyond 1) across a bifurcation are one branch.
 const CONTINUOUS: f64 = 1e-2;
 
@@ -37,6 +41,9 @@ const NEUTRAL: f64 = 1e-13;
 /// # Errors
 /// If the law refuses a section, none of its shapes is stable, or a branch needs too many elements.
 pub fn natural_branches(law: &RibbonLaw, length: f64) -> Result<Vec<NaturalBranch>, InvalidInput> {
+    if !(length > 0.0 && length.is_finite()) {
+        return Err(InvalidInput::new("length", length, "a positive number"));
+    }
     let station = law.station(0.0)?;
     let start = station.natural_shapes();
     let (mut branches, mut failure) =
@@ -77,7 +84,7 @@ impl<'a> Follower<'a> {
 
     fn follow(mut self, start: &Equilibrium) -> Result<NaturalBranch, InvalidInput> {
         let mut strain = start.strain;
-        let mut s = 0.0;
+        let (mut s, mut crossings) = (0.0, 0);
         for end in self.breaks.clone() {
             strain = self.enter(s, strain)?;
             let mut h = end - s;
@@ -86,16 +93,17 @@ impl<'a> Follower<'a> {
                 let shortest = SHORTEST * self.length;
                 match self.element(s, to, &strain)? {
                     Some(last) => {
-                        (s, strain) = (to, last);
+                        (s, strain, crossings) = (to, last, 0);
                         h *= 2.0;
                     }
                     None if to - s > 2.0 * shortest => h = 0.5 * (to - s),
                     None => {
                         (s, strain) = self.cross(s, end, &strain)?;
-                        h = 4.0 * shortest;
+                        (h, crossings) = (4.0 * shortest, crossings + 1);
                     }
                 }
-                if self.branch.elements.len() > MOST_ELEMENTS + 10 * self.breaks.len() {
+                let most = MOST_ELEMENTS + 10 * self.breaks.len();
+                if self.branch.elements.len() > most || crossings > MOST_CROSSINGS {
                     let expected = "growth that varies less, for the natural shape to be followed";
                     return Err(InvalidInput::new("S", s, expected));
                 }
@@ -116,7 +124,14 @@ impl<'a> Follower<'a> {
         let shapes = station.natural_shapes();
         let after = nearest(&station, &shapes, &before).map_or(before, |shape| shape.strain);
         if distance(&station, &after, &before) >= 1e-6 {
-            self.branch.events.push(Event { s, kind: EventKind::GrowthJump, before, after });
+            let kind = if self.law.jumps(s) {
+                EventKind::GrowthJump
+            } else if distance(&station, &after, &before) < CONTINUOUS {
+                EventKind::Bifurcation
+            } else {
+                EventKind::Jump
+            };
+            self.branch.events.push(Event { s, kind, before, after });
         }
         Ok(after)
     }

@@ -18,13 +18,13 @@ def real_array(field: str, value: Any, expected: str) -> Array:
     """Return `value` as a C-contiguous float64 array, or raise `InputError` naming `field`.
 
     Accepts integers and floats of any shape; refuses booleans, complex numbers, text, objects,
-    ragged nesting, and any entry that is not finite (the error names the first one).
+    ragged nesting, masked entries, and any entry that is not finite (the error names the first one).
     """
     try:
         raw = np.asarray(value)
     except ValueError:  # ragged nesting
         raise InputError(field, value, expected) from None
-    if raw.dtype.kind not in "iuf":
+    if raw.dtype.kind not in "iuf" or np.ma.is_masked(value):
         raise InputError(field, value, expected)
     array = np.ascontiguousarray(raw, dtype=np.float64).reshape(raw.shape)
     finite = np.isfinite(array)

@@ -57,13 +57,18 @@ def save(state: State, path: str | PathLike[str]) -> None:
     Raises
     ------
     InputError
-        Another suffix.
+        No file name, another suffix, or a directory that does not exist.
     OSError
         The file cannot be written.
     """
+    expected = "a file name ending in " + " or ".join(WRITERS)
+    if not isinstance(path, str | PathLike):
+        raise InputError("path", path, expected)
     suffix = Path(path).suffix.lower()
     if suffix not in WRITERS:
-        raise InputError("path", str(path), "a file name ending in " + " or ".join(WRITERS))
+        raise InputError("path", str(path), expected)
+    if not os.path.isdir(Path(path).parent):
+        raise InputError("path", str(path), "a file in a directory that exists")
     with replacing(path) as temporary:
         WRITERS[suffix](state, temporary)
 

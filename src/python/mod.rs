@@ -33,10 +33,20 @@ fn strains_from(array: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Strain>> {
 /// Numerical core of ribbonrs.
 #[pymodule]
 mod _core {
+    use numpy::PyArray1;
+    use pyo3::prelude::*;
+
     #[pymodule_export]
     use super::branch::NaturalBranch;
     #[pymodule_export]
     use super::frame::{gauss_points, helix, integrate_gauss, integrate_nodal, integrate_segments};
     #[pymodule_export]
     use super::section::{SectionLaw, natural_shapes_of};
+
+    /// Looks up numpy's C interface now: the crate panics if that fails, as it would at an interrupt later.
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        PyArray1::<f64>::zeros(module.py(), 0, false);
+        Ok(())
+    }
 }

@@ -214,3 +214,24 @@ def test_the_quadratic_law_has_no_deflection():
     quadratic = rb.SectionLaw(0.1, GROWTH, law="quadratic")
     refuses("law", lambda: quadratic.deflection(STRAIN, 0.0))
     refuses("law", lambda: quadratic.displacements(STRAIN, 0.0))
+
+
+def test_masked_strains_are_refused(law):
+    masked = np.ma.masked_array(STRAIN, mask=[False, True, False, False])
+    refuses("strains", lambda: law.energy(masked))
+
+
+def test_a_function_is_not_asked_beyond_the_places_asked_for():
+    """A function of S known up to 0.7 only."""
+    growth = rb.growth.edge(lambda S: np.where(S <= 0.7, 0.06 + 0.01 * S, np.nan))
+    varying = rb.SectionLaw(0.1, growth)
+    for S in (0.3, 0.6, 0.7):
+        there = rb.SectionLaw(0.1, rb.growth.edge(0.06 + 0.01 * S))
+        assert varying.energy(STRAIN, S=S) == pytest.approx(there.energy(STRAIN), rel=1e-13)
+
+
+@pytest.mark.parametrize("method", ["deflection", "displacements"])
+def test_a_section_is_at_one_place(law, method):
+    varying = rb.SectionLaw(0.1, rb.growth.edge(([0.0, 4.0], [0.0, 0.08])))
+    for one in (law, varying):
+        refuses("S", lambda one=one: getattr(one, method)(STRAIN, [0.1], S=[1.0, 2.0]))

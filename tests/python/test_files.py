@@ -169,9 +169,8 @@ def test_other_suffixes_are_refused(state, tmp_path, name):
 
 
 @pytest.mark.parametrize("suffix", ["vtp", "obj", "npz"])
-def test_a_missing_folder_is_an_error_of_the_system(state, tmp_path, suffix):
-    with pytest.raises(FileNotFoundError):
-        state.save(tmp_path / "nowhere" / f"leaf.{suffix}")
+def test_a_missing_folder_is_refused(state, tmp_path, suffix):
+    refuses("path", lambda: state.save(tmp_path / "nowhere" / f"leaf.{suffix}"))
     assert list(tmp_path.iterdir()) == []
 
 
@@ -279,3 +278,8 @@ def test_vtp_of_a_ribbon_that_varies(petal, tmp_path):
     width = np.sum(np.linalg.norm(np.diff(points, axis=1), axis=-1), axis=1)
     # the sections are curved, and their g22 is 1 to 2 %
     assert width == pytest.approx(2.0 * np.interp(petal.S, [0.0, 5.0], [1.0, 0.5]), rel=0.05)
+
+
+@pytest.mark.parametrize("path", [None, 3, b"leaf.vtp", "nowhere/leaf.vtp"])
+def test_what_is_no_file_name_is_refused(path):
+    refuses("path", lambda: rb.solve(rb.Scene(LEAF, rb.growth.edge(0.06))).save(path))

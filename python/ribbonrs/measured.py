@@ -6,6 +6,7 @@ import csv
 import io
 import math
 import os
+import re
 from collections.abc import Iterator, Sequence
 from difflib import get_close_matches
 from pathlib import Path
@@ -19,11 +20,14 @@ from .check import Numbers, numbers, positive
 from .errors import MISSING, InputError
 from .pieces import Pieces, joined
 from .profile import Profile, path_of
-from .terms import FIELDS, Growth, Term
+from .terms import FIELDS, SAME, Growth, Term
 
 __all__ = ["from_csv", "stations"]
 
 MOST_STATIONS = 1000
+
+MOST_ROWS = 250_000
+"""Most rows of numbers in a table: a quarter of what all stations could have."""
 
 ALIASES = {"g33": "gamma33"}
 """Other names of columns: the paper's g33 is that of the mid-surface here."""
@@ -52,6 +56,8 @@ def stations(S: ArrayLike, growths: Sequence[Growth], spline: bool = False, name
     {'gamma33': array(0.04)}
     """
     path = path_of(name)
+    if not isinstance(spline, bool):
+        raise InputError(f"{path}.spline", spline, "true or false")
     least = 4 if spline else 2
     expected = f"{least} to {MOST_STATIONS} ascending numbers, not negative"
     places = real_array(f"{path}.S", S, expected)
@@ -128,8 +134,9 @@ def from_csv(
     at = tuple(b / unit for b in numbers("growth.csv breaks", breaks))
     groups: dict[float, list[_Row]] = {}
     for row in rows:
-        scaled = _Row(row.line, {key: v / unit if key in ("x", "S") else v for key, v in row.values.items()})
-        groups.setdefault(scaled.values.get("S", 0.0), []).append(scaled)
+        scaled = {key: v / unit if key in ("x", "S") else v for key, v in row.values.items()}
+        scaled["x"] = _rounded(scaled["x"], at)
+        groups.setdefault(scaled.get("S", 0.0), []).append(_Row(row.line, scaled))
     least = 4 if spline else 2
     if "S" in columns and len(groups) < least:
         found = f"{len(groups)} stations"
@@ -148,13 +155,18 @@ class _Row(NamedTuple):
     values: dict[str, float]
 
 
+def _rounded(x: float, breaks: tuple[float, ...]) -> float:
+    """The break that x is at but for rounding, so that rows there keep their order, else x."""
+    return next((b for b in breaks if abs(x - b) <= SAME), x)
+
+
 def _profile(
     where: str, columns: list[str], rows: list[_Row], breaks: tuple[float, ...], spline: bool, name: str
 ) -> Growth:
-    """The growth at one station."""
+    """The growth at one station, of rows with ascending x."""
     x = [row.values["x"] for row in rows]
     for before, place, row in zip([math.nan, *x], x, rows, strict=False):
-        if abs(place) > 0.5 + 1e-12:
+        if abs(place) > 0.5 + SAME:
             raise InputError(_cell(row.line, "x"), place, "a number in [-1/2, 1/2]: x = X2/a")
         if place == before and place not in breaks:
             raise InputError(_cell(row.line, "x"), place, "each x once at a station; breaks= mark jumps")
@@ -170,23 +182,27 @@ def _read(path: str | os.PathLike[str]) -> tuple[list[str], list[_Row]]:
     """The names of the columns, and the rows as numbers."""
     lines = _lines(path)
     line, header = next(lines, (1, []))
+    if not header:
+        raise InputError(
+            "growth.csv", os.fspath(path), "a header, such as x,gamma33, and rows of numbers below it"
+        )
     columns = [ALIASES.get(column, column) for column in header]
     known = ["x", "S", *FIELDS, *ALIASES]
     for column in header:
         if column not in known:
-            nearest = get_close_matches(column, known, n=1, cutoff=0.0)[0]
-            expected = f"one of {', '.join(known)}; the nearest is {nearest}"
-            raise InputError(f"growth.csv line {line}", column, expected)
+            raise InputError(f"growth.csv line {line}", column, _column(column, known))
         if columns.count(ALIASES.get(column, column)) > 1:
             raise InputError(f"growth.csv line {line}", column, "each column once")
     if "x" not in columns:
-        raise InputError(
-            "growth.csv column x", MISSING, f"x = X2/a besides {', '.join(columns) or 'nothing'}"
-        )
+        raise InputError("growth.csv column x", MISSING, f"x = X2/a besides {', '.join(columns)}")
     if not set(columns) & set(FIELDS):
         raise InputError("growth.csv column", MISSING, f"at least one of {', '.join(FIELDS)}")
-    rows = []
+    rows: list[_Row] = []
     for line, cells in lines:
+        if len(rows) == MOST_ROWS:
+            raise InputError(
+                f"growth.csv line {line}", "one row more", f"at most {MOST_ROWS} rows of numbers"
+            )
         if len(cells) != len(columns):
             expected = f"{len(columns)}, as in the header"
             raise InputError(f"growth.csv line {line}", f"{len(cells)} cells", expected)
@@ -195,6 +211,17 @@ def _read(path: str | os.PathLike[str]) -> tuple[list[str], list[_Row]]:
     if not rows:
         raise InputError("growth.csv", os.fspath(path), "rows of numbers below the header")
     return columns, rows
+
+
+def _column(found: str, known: list[str]) -> str:
+    """What was expected in place of a column of this name."""
+    words = re.findall(r"\w+", found)
+    if len(words) > 1 and (";" in found or "\t" in found or set(words) <= set(known)):
+        return "columns separated by commas"
+    if words and words[0] in known:
+        return f"plain {words[0]}" + ("; width= is for lengths" if words[0] in ("x", "S") else "")
+    nearest = get_close_matches(found, known, n=1, cutoff=0.0)[0]
+    return f"one of {', '.join(known)}; the nearest is {nearest}"
 
 
 def _lines(path: str | os.PathLike[str]) -> Iterator[tuple[int, list[str]]]:

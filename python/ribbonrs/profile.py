@@ -15,7 +15,7 @@ from .errors import InputError
 from .pieces import Pieces, joined, series
 from .resolve import Function, fitted
 from .samples import Samples, checked, is_samples
-from .terms import FIELDS, Growth, Shape, Term
+from .terms import FIELDS, SAME, Growth, Shape, Term
 
 __all__ = ["FieldInput", "Profile", "path_of"]
 
@@ -27,9 +27,6 @@ MAX_COEFFICIENTS = 33
 
 MOST_PIECES = 1000
 """Most pieces across the width."""
-
-SAME = 1e-12
-"""How far a sample may be from an edge or a break, by rounding, to be at it."""
 
 CLOSEST = 1e-9
 """Least distance of two samples or two breaks."""

@@ -18,10 +18,13 @@ from .errors import InputError
 from .pieces import Pieces, grid
 from .resolve import adapted
 
-__all__ = ["FIELDS", "CorePieces", "CoreTerm", "Growth", "Shape", "Term", "core_pieces"]
+__all__ = ["FIELDS", "SAME", "CorePieces", "CoreTerm", "Growth", "Shape", "Term", "core_pieces"]
 
 FIELDS = ("gamma33", "d33", "d22", "d23", "g21", "g31", "gamma22", "gamma23")
 """The parts of the growth tensor that act."""
+
+SAME = 1e-12
+"""How far x may be from an edge or a break, by rounding, to be at it."""
 
 Shape: TypeAlias = tuple[float, ...] | Pieces
 """A field across the width: coefficients in x, lowest power first, or pieces from -1/2 to 1/2."""
@@ -54,6 +57,12 @@ class Term:
     def path(self) -> str:
         """The name of the amplitude, in errors and as a parameter."""
         return f"growth.{self.name}.amplitude"
+
+    @cached_property
+    def bounds(self) -> dict[str, float]:
+        """Numbers that the fields do not exceed."""
+        size = _bound(self.amplitude)
+        return {key: size * _bound(shape) for key, shape in self.shape}
 
     @cached_property
     def _resolved(self) -> dict[float, Pieces]:
@@ -90,13 +99,16 @@ class Growth:
     terms: tuple[Term, ...]
 
     def __post_init__(self) -> None:
-        names = [term.name for term in self.terms]
-        for name in names:
-            if names.count(name) > 1:
-                raise InputError("growth.name", name, "a different name for each growth of a sum")
-        for key in FIELDS:
-            bounds = [_bound(term.amplitude) * _bound(shape) for term, shape in self._of(key)]
-            if not math.isfinite(math.fsum(bounds) if all(map(math.isfinite, bounds)) else math.inf):
+        names: set[str] = set()
+        bounds: dict[str, float] = {}
+        for term in self.terms:
+            if term.name in names:
+                raise InputError("growth.name", term.name, "a different name for each growth of a sum")
+            names.add(term.name)
+            for key, bound in term.bounds.items():
+                bounds[key] = bounds.get(key, 0.0) + bound
+        for key, bound in bounds.items():
+            if not math.isfinite(bound):
                 raise InputError(f"growth.{key}", math.inf, "a sum of finite numbers")
 
     def __add__(self, other: Growth) -> Growth:
@@ -146,13 +158,22 @@ class Growth:
 
         Where a field jumps it is the value to the right.
         """
-        points = real_array("x", x, "finite numbers in [-1/2, 1/2]")
+        expected = "finite numbers in [-1/2, 1/2]"
+        points = real_array("x", x, expected)
+        outside = points[np.abs(points) > 0.5 + SAME]
+        if outside.size:
+            raise InputError("x", float(outside[0]), expected)
         stations = real_array("S", S, "finite numbers")
+        try:
+            shape = np.broadcast_shapes(points.shape, stations.shape)
+        except ValueError:
+            expected = f"one that broadcasts with {points.shape}, that of x"
+            raise InputError("S.shape", stations.shape, expected) from None
         sums: dict[str, Array] = {}
         for term in self.terms:
             amplitude = evaluated(term.path, term.amplitude, stations)
-            for key, shape in term.shape:
-                sums[key] = sums.get(key, np.zeros(())) + amplitude * _profile(shape, points)
+            for key, profile in term.shape:
+                sums[key] = sums.get(key, np.zeros(shape)) + amplitude * _profile(profile, points)
         return {key: np.asarray(sums[key]) for key in FIELDS if key in sums}
 
     def size(self, thickness_ratio: float, length: float | None = None) -> float:

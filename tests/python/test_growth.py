@@ -1,6 +1,7 @@
 """Growths, their sums and what they refuse."""
 
 import math
+import time
 
 import numpy as np
 import pytest
@@ -175,3 +176,32 @@ def test_overflowing_sums_are_refused():
     )
     refuses("growth.gamma33", lambda: rb.growth.edge(1e308))
     refuses("growth.d33", lambda: rb.growth.Profile(d33=[1e300], amplitude=1e300))
+
+
+def test_values_broadcast():
+    growth = rb.growth.edge(0.06) + rb.growth.chiral(([0.0, 10.0], [0.0, 0.1]))
+    values = growth.values(np.array([0.0, 0.5]), [[0.0], [5.0], [10.0]])
+    assert values["gamma33"].tolist() == [[0.0, 0.06]] * 3
+    assert values["d23"].tolist() == [[0.0, 0.0], [0.05, 0.05], [0.1, 0.1]]
+    refuses("S.shape", lambda: growth.values([0.0, 0.1], [1.0, 2.0, 3.0]))
+
+
+@pytest.mark.parametrize("x", [3.0, -0.5001, [0.0, 0.5 + 1e-11]])
+def test_values_are_inside_the_width(x):
+    refuses("x", lambda: rb.growth.edge(0.1).values(x))
+    assert rb.growth.edge(0.1).values(0.5 + 1e-13)["gamma33"] == pytest.approx(0.1, rel=1e-12)
+
+
+@pytest.mark.parametrize("xi", [4e-5, ([0.0, 10.0], [0.0, 4e-5])])
+def test_sums_of_many_growths(xi):
+    start = time.perf_counter()
+    growth = sum(rb.growth.edge(xi, name=f"edge{i}") for i in range(1000))
+    # Takes 0.2 s; comparing every two names of every sum took 6 s.
+    assert time.perf_counter() - start < 2.0
+    # A thousand roundings of numbers up to 0.04.
+    assert growth.values(0.5, 10.0)["gamma33"] == pytest.approx(0.04, rel=1000 * 2.3e-16)
+
+
+def test_sums_that_overflow_are_refused():
+    half = 1e308 / 4
+    refuses("growth.gamma33", lambda: rb.growth.edge(half, "a") + rb.growth.edge(half, "b"))

@@ -86,12 +86,6 @@ impl Piecewise {
         legendre::evaluate(&self.pieces[piece], (t.clamp(from, to) - 0.5 * (from + to)) / (to - from))
     }
 
-    /// The series of the piece at `t`, at a break that to its right.
-    #[must_use]
-    pub fn series_at(&self, t: f64) -> &[f64] {
-        &self.pieces[self.breaks[1..self.breaks.len() - 1].partition_point(|&b| b <= t)]
-    }
-
     /// The same function with further breaks, which lie within its range.
     #[must_use]
     pub fn refined(&self, breaks: &[f64]) -> Self {

@@ -215,3 +215,17 @@ fn a_helix_becomes_a_twisted_ribbon_and_back() {
     }
     is_pointwise_stable(&law, branch);
 }
+
+/// A jump of growth that changes only the curvature in the plane of the ribbon.
+#[test]
+fn growth_that_jumps_in_the_plane_is_told() {
+    let on = Piecewise::from_legendre(vec![0.0, 5.0, 10.0], vec![vec![], vec![1.0]]).unwrap();
+    let slope = Growth { gamma33: vec![0.0, 0.03].into(), ..Growth::default() };
+    let law = law(vec![(Amplitude::Along(on), slope)], Amplitude::Constant(1.0));
+    let branch = &natural_branches(&law, LENGTH).unwrap()[0];
+    assert_eq!(
+        (branch.events.len(), branch.events[0].kind, branch.events[0].s),
+        (1, EventKind::GrowthJump, 5.0)
+    );
+    assert!((branch.events[0].after[1] - 0.03).abs() < 1e-16);
+}

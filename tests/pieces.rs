@@ -133,9 +133,9 @@ fn pieces_of_a_polynomial_are_the_polynomial() {
     }
 }
 
-/// Many profiles whose amplitudes are cubics of `S` span no more than four growths, and one that is constant.
+/// Every other of many profiles varies, with amplitudes that start from zero and have breaks of their own.
 #[test]
-fn many_profiles_along_the_ribbon_share_few_modes() {
+fn sums_of_many_profiles_share_modes() {
     let stiffness = PlaneStress::incompressible();
     let profile = |i: u32| {
         let breaks = (0..=5)
@@ -151,8 +151,9 @@ fn many_profiles_along_the_ribbon_share_few_modes() {
         Growth { gamma33: Piecewise::from_legendre(breaks, steps).unwrap().into(), ..Growth::default() }
     };
     let cubic = |i: u32| {
-        let coefficients = (0..4).map(|n| 0.1 * f64::from((i + 3 * n) % 4 + 1)).collect();
-        Amplitude::Along(Piecewise::from_legendre(vec![0.0, 10.0], vec![coefficients]).unwrap())
+        let inner = 2.0 + 0.3 * f64::from(i);
+        let pieces = vec![vec![0.5, 0.5], vec![1.0, 0.1 * f64::from(i % 4), 0.2, 0.1]];
+        Amplitude::Along(Piecewise::from_legendre(vec![0.0, inner, 10.0], pieces).unwrap())
     };
     let growth: Vec<(Amplitude, Growth)> =
         (0..20).map(|i| (if i % 2 == 0 { cubic(i) } else { Amplitude::Constant(0.3) }, profile(i))).collect();
@@ -165,7 +166,7 @@ fn many_profiles_along_the_ribbon_share_few_modes() {
         thickness: Amplitude::Constant(1.0),
     };
     let law = RibbonLaw::new(spec).unwrap();
-    for s in [1.0, 7.3] {
+    for s in [0.0, 1.0, 7.3, 10.0] {
         let mut there = Growth::default();
         for (amplitude, profile) in &growth {
             there.add_scaled(amplitude.at(s), 1.0, profile);

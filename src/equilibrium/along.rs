@@ -116,14 +116,16 @@ impl<'a> Follower<'a> {
     /// The strains with which a stretch without breaks begins: the same shape, unless the growth jumps.
     fn enter(&mut self, s: f64, before: Strain) -> Result<Strain, InvalidInput> {
         let station = self.law.station(s)?;
-        if let Some(Settled { shape, .. }) = stable(&station, &before)
-            && distance(&station, &shape.strain, &before) < 1e-6
-        {
-            return Ok(shape.strain);
-        }
-        let shapes = station.natural_shapes();
-        let after = nearest(&station, &shapes, &before).map_or(before, |shape| shape.strain);
-        if distance(&station, &after, &before) >= 1e-6 {
+        let scale = natural_scale(&station).sup(&before.abs());
+        let differs = |after: &Strain| (0..4).any(|c| (after[c] - before[c]).abs() > 1e-6 * scale[c]);
+        let settled = stable(&station, &before).map(|settled| settled.shape.strain);
+        let after = match settled.filter(|after| distance(&station, after, &before) < 1e-6) {
+            Some(same) => same,
+            None => {
+                nearest(&station, &station.natural_shapes(), &before).map_or(before, |shape| shape.strain)
+            }
+        };
+        if differs(&after) {
             let kind = if self.law.jumps(s) {
                 EventKind::GrowthJump
             } else if distance(&station, &after, &before) < CONTINUOUS {

@@ -75,7 +75,7 @@ pub struct RibbonSpec {
 pub struct RibbonLaw {
     spec: RibbonSpec,
     uniform: Option<Station>,
-    /// Modes by what [`RibbonLaw::span`] knows their growths by.
+    /// Modes of the profiles with these places in `spec.growth`.
     reaches: Mutex<HashMap<Vec<usize>, Arc<Reach>>>,
 }
 
@@ -195,73 +195,43 @@ impl RibbonLaw {
             growth.add_scaled(amplitudes[i], width, &spec.growth[i].1);
         }
         let eta = spec.eta * thickness / width;
-        let reach = self.reach(&growth, active, s);
+        let reach = self.reach(&growth, &active);
         let section = Section::with_reach(eta, growth, &spec.stiffness, spec.form, reach)?;
         Ok(Station { section, width, weight: width * thickness })
     }
 
-    /// The modes for the growth at `s`, a sum of the active profiles, if they jump.
-    fn reach(&self, growth: &Growth, active: Vec<usize>, s: f64) -> Option<Arc<Reach>> {
+    /// The modes for sums of the active profiles, if they jump.
+    fn reach(&self, growth: &Growth, active: &[usize]) -> Option<Arc<Reach>> {
         let mesh = Mesh::of(growth);
         if mesh.is_single() {
             return None;
         }
-        let (key, sums) = self.span(active, s);
         // What the lock guards is whole at any time: a map of finished entries.
         let mut reaches = self.reaches.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(known) = reaches.get(&key) {
+        if let Some(known) = reaches.get(active) {
             return Some(Arc::clone(known));
         }
         // Gradients through the thickness scale with the width, the rest does not.
-        let parts = sums().into_iter().flat_map(Growth::split);
+        let parts = self.summands(active).into_iter().flat_map(Growth::split);
         let reduce = |part: Growth| Reduction::on(mesh.clone(), part, &self.spec.stiffness);
         let reductions: Vec<Reduction> = parts.map(reduce).collect();
         let reach = Arc::new(Reach::new(&reductions)?);
-        reaches.insert(key, Arc::clone(&reach));
+        reaches.insert(active.to_vec(), Arc::clone(&reach));
         Some(reach)
     }
 
-    /// Growths of which that at `s` and around it is a sum, and what they are known by.
-    ///
-    /// What is constant along the ribbon is one of them. The rest is spanned by the profiles themselves, or, if
-    /// these are more, between two breaks by the coefficients of the amplitudes' polynomials.
-    fn span(&self, active: Vec<usize>, s: f64) -> (Vec<usize>, impl Fn() -> Vec<Growth>) {
-        let (constant, varying): (Vec<usize>, Vec<usize>) =
-            active.into_iter().partition(|&i| self.spec.growth[i].0.is_constant());
-        let length = |i: &usize| match &self.spec.growth[*i].0 {
-            Amplitude::Constant(_) => 1,
-            Amplitude::Along(function) => function.series_at(s).len(),
-        };
-        let degrees = varying.iter().map(length).fold(0, usize::max);
-        let piece = (degrees < varying.len()).then(|| self.breaks().partition_point(|&b| b <= s));
-        let mut key = constant.clone();
-        match piece {
-            Some(piece) => key.extend([usize::MAX, piece]),
-            None => key.extend(&varying),
+    /// Growths of which every sum of the active profiles is made: what is constant along the ribbon is one of them.
+    fn summands(&self, active: &[usize]) -> Vec<Growth> {
+        let mut constant = Growth::default();
+        let mut summands = Vec::new();
+        for &i in active {
+            match &self.spec.growth[i] {
+                (Amplitude::Constant(amplitude), profile) => constant.add_scaled(*amplitude, 1.0, profile),
+                (Amplitude::Along(_), profile) => summands.push(profile.clone()),
+            }
         }
-        let sums = move || {
-            let mut fixed = Growth::default();
-            for &i in &constant {
-                fixed.add_scaled(self.spec.growth[i].0.at(s), 1.0, &self.spec.growth[i].1);
-            }
-            let mut sums = vec![fixed];
-            if piece.is_none() {
-                sums.extend(varying.iter().map(|&i| self.spec.growth[i].1.clone()));
-                return sums;
-            }
-            for n in 0..degrees {
-                let mut sum = Growth::default();
-                for &i in &varying {
-                    if let (Amplitude::Along(function), profile) = &self.spec.growth[i] {
-                        let coefficient = function.series_at(s).get(n).copied().unwrap_or(0.0);
-                        sum.add_scaled(coefficient, 1.0, profile);
-                    }
-                }
-                sums.push(sum);
-            }
-            sums
-        };
-        (key, sums)
+        summands.push(constant);
+        summands
     }
 }
 

@@ -107,7 +107,8 @@ class _CsvTable(Table):
 
 
 def _as_thickness(value: object) -> object:
-    return value if isinstance(value, dict) and not {"S", "values"} & value.keys() else {"xi": value}
+    keys = value.keys() if isinstance(value, dict) else {"S"}
+    return {"xi": value} if {"S", "values"} & keys and not {"xi", "transverse"} & keys else value
 
 
 def _as_csv(value: object) -> object:

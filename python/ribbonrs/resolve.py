@@ -49,7 +49,7 @@ def called(field: str, function: Function, points: Array, variable: str) -> Arra
     ------
     InputError
         Naming `field`, if the function raises anything (kept as the cause) or returns what is not an array
-        of as many finite real numbers.
+        of as many finite real numbers, none of them masked.
     """
     expected = f"a function of {variable} that takes an array and returns one of the same shape"
     try:
@@ -62,6 +62,8 @@ def called(field: str, function: Function, points: Array, variable: str) -> Arra
         values = np.asarray(returned)
     except ValueError:  # ragged nesting
         values = np.asarray(None)
+    if np.ma.is_masked(returned):
+        raise InputError(field, returned, f"numbers that are not masked from {expected}")
     if values.dtype.kind not in "iuf":
         raise InputError(field, returned, f"real numbers from {expected}")
     if values.shape != points.shape:

@@ -238,6 +238,7 @@ def test_what_a_function_raises_is_kept():
         lambda S: S[:-1],
         lambda S: S + 0j,
         lambda S: S.astype(object),
+        lambda S: np.ma.masked_greater(S, 5.0),
         lambda S: S.astype(np.float32),
         lambda S: None,
         lambda S: np.where(S < 5, np.nan, S),

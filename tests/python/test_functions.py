@@ -79,6 +79,12 @@ def test_no_warning_of_a_function_gets_out():
         )
 
 
+def test_functions_return_numbers_that_are_not_masked():
+    masked = np.ma.masked_greater
+    refuses("growth.profile.d33", lambda: rb.growth.Profile(d33=lambda x: masked(x, 0.1)))
+    assert gamma33(gamma33=lambda x: masked(x, 0.6)) == pytest.approx(X, abs=1e-16)
+
+
 def test_what_a_function_raises_is_kept():
     def f(x):
         raise KeyError("no such leaf\nat all")

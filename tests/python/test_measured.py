@@ -93,6 +93,11 @@ def test_stations_are_refused(field, S, growths, spline):
     refuses(f"growth.station.{field}", lambda: rb.growth.stations(S, growths, spline))
 
 
+@pytest.mark.parametrize("spline", [1, "yes", None])
+def test_splines_of_stations_are_true_or_false(spline):
+    refuses("growth.station.spline", lambda: rb.growth.stations(np.arange(4.0), [EDGE] * 4, spline))
+
+
 def test_names_of_stations_are_identifiers():
     refuses("growth.name", lambda: rb.growth.stations([0.0, 1.0], [EDGE, EDGE], name="a b"))
     refuses("growth.name", lambda: rb.growth.from_csv("leaf.csv", name="1st"))
@@ -165,6 +170,13 @@ def test_splines_and_breaks(table):
     assert table(text, breaks=[0.1], spline=True) == expected
 
 
+@pytest.mark.parametrize("places", [(0.1 + 0.2, 0.1 + 0.2), (0.1 + 0.2, 0.3), (0.3, 0.1 + 0.2)])
+def test_rows_are_at_breaks_but_for_rounding(table, places):
+    assert 0.1 + 0.2 != 0.3
+    text = "x,g33\n-0.5,0\n{!r},1\n{!r},2\n0.5,3\n".format(*places)
+    assert table(text, breaks=[0.3]) == table("x,g33\n-0.5,0\n0.3,1\n0.3,2\n0.5,3\n", breaks=[0.3])
+
+
 @pytest.mark.parametrize("spline", [False, True])
 def test_stations_have_x_of_their_own(table, spline):
     rng = np.random.default_rng(3)
@@ -199,8 +211,6 @@ def test_text_of_any_kind(table):
 @pytest.mark.parametrize(
     ("text", "line"),
     [
-        ("", "growth.csv column x is missing: expected x = X2/a besides nothing"),
-        ("# only this\n", "growth.csv column x is missing: expected x = X2/a besides nothing"),
         ("S,g33\n0,1\n", "growth.csv column x is missing: expected x = X2/a besides S, gamma33"),
         ("x\n0\n", "growth.csv column is missing: expected at least one of gamma33, d33, d22, d23, g21, "),
         (
@@ -208,7 +218,11 @@ def test_text_of_any_kind(table):
             "growth.csv line 2 = 'gama33': expected one of x, S, gamma33, d33, d22, d23, g21, g31, gamma22, "
             "gamma23, g33; the nearest is gamma33",
         ),
-        ("x;g33\n", "growth.csv line 1 = 'x;g33': expected one of x, S, "),
+        ("x;g33\n", "growth.csv line 1 = 'x;g33': expected columns separated by commas"),
+        ("x\tgrowth\n", "growth.csv line 1 = 'x\\tgrowth': expected columns separated by commas"),
+        ("S x g33\n", "growth.csv line 1 = 'S x g33': expected columns separated by commas"),
+        ("x (mm),g33\n", "growth.csv line 1 = 'x (mm)': expected plain x; width= is for lengths"),
+        ("x,g33 [%]\n", "growth.csv line 1 = 'g33 [%]': expected plain g33"),
         ("x,g33,\n", "growth.csv line 1 = '': expected one of x, S, "),
         ("x,g33,gamma33\n", "growth.csv line 1 = 'g33': expected each column once"),
         ("x,x,g33\n", "growth.csv line 1 = 'x': expected each column once"),
@@ -241,6 +255,21 @@ def test_text_of_any_kind(table):
 )
 def test_tables_are_refused(refusal, text, line):
     assert refusal(text).startswith(line)
+
+
+@pytest.mark.parametrize("text", ["", "# only this\n", "\n \n"])
+def test_tables_without_a_header_are_refused(refusal, text):
+    assert refusal(text).endswith(
+        "leaf.csv': expected a header, such as x,gamma33, and rows of numbers below it"
+    )
+
+
+def test_rows_are_refused_while_they_are_read(refusal):
+    rows = "0,0\n" * 250_000
+    assert "each x once" in refusal(f"x,g33\n{rows}")
+    # The row beyond the last, before what is wrong with it.
+    line = "growth.csv line 250002 = 'one row more': expected at most 250000 rows of numbers"
+    assert refusal(f"x,g33\n{rows}0,a\n") == line
 
 
 def test_too_few_for_splines(refusal):

@@ -141,6 +141,7 @@ def test_samples_rounded_off_an_edge_or_a_break_are_at_it():
         ("values", [-0.5, 0.5], [0.0, None], {}),
         ("values", [-0.5, 0.5], [0.0, [0.1]], {}),
         ("values", [-0.5, 0.5], np.array([0.0, 0.1], dtype=object), {}),
+        ("values", [-0.5, 0.5], np.ma.masked_equal([0.0, 0.1], 0.1), {}),
         ("x", [False, True], [0.0, 0.1], {}),
         ("x[0]", [0.0, 0.1, 0.5], [0.0] * 3, {}),
         ("x[2]", [-0.5, 0.0, 0.2], [0.0] * 3, {}),

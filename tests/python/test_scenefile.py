@@ -59,7 +59,8 @@ def test_example_equals_its_python_objects(tmp_path, monkeypatch):
 def test_documented_file_has_every_key_and_is_read(job):
     text = (EXAMPLES.parent / "docs" / "scene-files.md").read_text()
     block = text.split("```toml\n")[1].split("```")[0]
-    Path("leaf.csv").write_text(LEAF)
+    page = (EXAMPLES.parent / "docs" / "growth.md").read_text()
+    Path("leaf.csv").write_text(page.split("```csv\n")[1].split("```")[0])
     read = job(block)
     assert [t.name for t in read.scene.growth.terms] == ["edge", "thickness", "chiral", "vein", "measured"]
     assert len(read.outputs) == 4
@@ -245,6 +246,10 @@ def test_windows_text(job):
         ),
         (SCENE + '[material]\nkind = "mooney-rivlin"\nc1 = 1', "material.c2 is missing: expected a value"),
         (SCENE + '[trace]\nparameter = "growth.edge.amplitude"', "trace.span is missing: expected a value"),
+        (
+            RIBBON + "[growth]\nthickness = {S = [0, 10], values = [0, 0.1], xi = 0.1}",
+            "growth.thickness.S = [0, 10]: expected one of xi, transverse; the nearest is ",
+        ),
         (RIBBON + "[growth]\ncsv = {}", "growth.csv.path is missing: expected a value"),
         (
             RIBBON + "[growth.profile]\ngamma33 = {x = [0, 1]}",

@@ -62,7 +62,8 @@ def test_documented_file_has_every_key_and_is_read(job):
     page = (EXAMPLES.parent / "docs" / "growth.md").read_text()
     Path("leaf.csv").write_text(page.split("```csv\n")[1].split("```")[0])
     read = job(block)
-    assert [t.name for t in read.scene.growth.terms] == ["edge", "thickness", "chiral", "vein", "measured"]
+    names = ["edge", "thickness", "chiral", "vein", "station0_measured", "station1_measured"]
+    assert [term.name for term in read.scene.growth.terms] == names
     assert len(read.outputs) == 4
     known = [*vars(scenefile).values(), *vars(growthtable).values()]
     tables = [name for name in known if isinstance(name, type) and hasattr(name, "model_fields")]

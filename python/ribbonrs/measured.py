@@ -107,7 +107,7 @@ def from_csv(
     Parameters
     ----------
     path : str or path
-        A text file in UTF-8.
+        A text file in UTF-8, of at most 250,000 rows of numbers.
     width : float, optional
         If given, x, S and `breaks` are lengths in the unit of this width.
     breaks, spline, name

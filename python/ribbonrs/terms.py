@@ -157,6 +157,11 @@ class Growth:
         """Return the growth fields present, at x = X2/a in [-1/2, 1/2] and S = X3/a, broadcast.
 
         Where a field jumps it is the value to the right.
+
+        Raises
+        ------
+        InputError
+            If x is outside the width, S outside of samples along the ribbon, or their shapes do not broadcast.
         """
         expected = "finite numbers in [-1/2, 1/2]"
         points = real_array("x", x, expected)

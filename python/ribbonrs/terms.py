@@ -161,7 +161,7 @@ class Growth:
         Raises
         ------
         InputError
-            If x is outside the width, S outside of samples along the ribbon, or their shapes do not broadcast.
+            If x is outside the width, S outside of samples along the ribbon, or shapes do not broadcast.
         """
         expected = "finite numbers in [-1/2, 1/2]"
         points = real_array("x", x, expected)

@@ -36,6 +36,10 @@ const CONTINUOUS: f64 = 1e-2;
 const STIFFNESS_NOISE: f64 = 1e-14;
 const NEUTRAL: f64 = 1e-13;
 
+/// Least stiffness over the greatest below which a change of phase is a bifurcation and not a strain that happens
+/// to pass through zero.
+const SOFT: f64 = 1e-6;
+
 /// Every branch that is stable at `S = 0`, to `S = length`: fewest jumps first, then lowest energy.
 ///
 /// # Errors
@@ -193,7 +197,10 @@ impl<'a> Follower<'a> {
             let tolerance = (relief * TOLERANCE * scale[c]).max(noise) + misplaced * slope[c];
             tail.iter().all(|t| t.abs() <= tolerance) && begins[c].abs() <= 1e3 * tolerance
         });
-        if !resolved || !stays_stable(&softness) {
+        // A gentle bifurcation hides in the rounding of the strains, but not from their names.
+        let least = softness.iter().copied().fold(f64::INFINITY, f64::min);
+        let bridged = phases.len() > 1 && least < SOFT;
+        if !resolved || bridged || !stays_stable(&softness) {
             return Ok(None);
         }
         self.work += (to - from) * work;

@@ -1,5 +1,8 @@
 //! Growth given on pieces of the width, against the same growth without pieces and against integrals.
 
+mod growths;
+
+use growths::every_field;
 use ribbonrs::growth::{Growth, Profile};
 use ribbonrs::material::PlaneStress;
 use ribbonrs::piecewise::Piecewise;
@@ -28,20 +31,6 @@ fn whole(c: &[f64]) -> Piecewise {
         at(4) * 8.0 / 35.0,
     ];
     Piecewise::from_legendre(vec![-0.5, 0.5], vec![legendre]).unwrap()
-}
-
-fn every_field(eta: f64) -> Growth {
-    let e2 = eta * eta;
-    Growth {
-        gamma33: [0.3, -1.0, 12.0, 5.0, -20.0].map(|c| c * e2).to_vec().into(),
-        d33: [0.8, 1.5, -2.0].map(|c| c * eta).to_vec().into(),
-        d22: [-0.4, 0.7].map(|c| c * eta).to_vec().into(),
-        d23: [0.6, -1.0, 3.0].map(|c| c * eta).to_vec().into(),
-        g21: [0.1, 0.5, -0.8, 2.0].map(|c| c * eta).to_vec().into(),
-        g31: [0.0, 0.3, 1.1].map(|c| c * eta).to_vec().into(),
-        gamma22: vec![e2].into(),
-        gamma23: vec![0.0, e2].into(),
-    }
 }
 
 /// Gradients through the thickness scale with the width and the other fields do not: the modes that the

@@ -123,6 +123,7 @@ def joined(points: Array, values: Array, spline: bool, start: float, end: float)
         ends[-1] = _beyond(points[-2], values[-2], points[-1], values[-1], end)
         return linear(breaks, ends)
     # Loaded here, since it takes longer than the whole package.
+    # Here, since scipy is slow to import; it has no types.
     from scipy.interpolate import CubicSpline  # type: ignore[import-untyped]
 
     curve = CubicSpline(points, values, bc_type="not-a-knot")

@@ -132,7 +132,8 @@ fn extend(basis: &mut Vec<Vec<f64>>, mut vector: Vec<f64>) -> Option<usize> {
         }
     }
     let rest = norm(&vector);
-    if rest <= DEPENDENT * size || rest == 0.0 {
+    // Also what overflowed is left out: the matrix of what remains is finite.
+    if !(rest > DEPENDENT * size && rest.is_finite()) {
         return None;
     }
     vector.iter_mut().for_each(|v| *v /= rest);
@@ -198,7 +199,7 @@ impl Bidiagonal {
 
     /// Singular values, zero for what has no curvature, and singular vectors.
     fn decomposition(&self) -> (Vec<f64>, Mat<f64>, Mat<f64>) {
-        // F is finite and well scaled; the QR iteration does not fail.
+        // Its entries are products of unit vectors, hence finite; the QR iteration does not fail on them.
         let svd = self.matrix().svd().expect("singular values of a finite matrix");
         let values = svd.S().column_vector();
         let sigma = (0..self.rows).map(|j| if j < values.nrows() { values[j] } else { 0.0 });

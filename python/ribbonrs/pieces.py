@@ -122,8 +122,7 @@ def joined(points: Array, values: Array, spline: bool, start: float, end: float)
         ends[0] = _beyond(points[1], values[1], points[0], values[0], start)
         ends[-1] = _beyond(points[-2], values[-2], points[-1], values[-1], end)
         return linear(breaks, ends)
-    # Loaded here, since it takes longer than the whole package.
-    # Here, since scipy is slow to import; it has no types.
+    # Loaded here, since it takes longer than the whole package; scipy has no types.
     from scipy.interpolate import CubicSpline  # type: ignore[import-untyped]
 
     curve = CubicSpline(points, values, bc_type="not-a-knot")

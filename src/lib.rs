@@ -15,6 +15,7 @@
 //! Equation numbers refer to H. Liu, M. Li and D. Liu, *Morphoelastic ribbons: Differential
 //! growth-induced curvature and torsion*.
 
+pub mod boundary;
 pub mod equilibrium;
 pub mod frame;
 pub mod growth;

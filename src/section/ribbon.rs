@@ -88,6 +88,7 @@ pub struct Station {
 }
 
 /// A station that is kept or made for the occasion.
+#[derive(Debug)]
 pub enum Held<'a> {
     /// That of a uniform ribbon.
     Kept(&'a Station),

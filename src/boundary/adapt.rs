@@ -1,0 +1,151 @@
+//! The error of a discrete solution, and the mesh that brings it below a tolerance.
+//!
+//! Two half steps from a node, less the whole one, are the defect of an element but for terms of higher order; what
+//! the factorised equations make of all defects is the global error, with its sign, at every node.
+
+use super::ends::half_angle;
+use super::iterate::{Correction, Iterate, strain_size};
+use super::mesh::Mesh;
+use super::problem::Problem;
+use super::step::Stepper;
+use super::system::System;
+use crate::InvalidInput;
+
+/// The estimated error.
+#[derive(Clone, Debug)]
+pub struct Estimate {
+    /// Largest of the errors of position/L, angles, `eps` and `K L`.
+    pub error: f64,
+    /// Size of the defect of each element.
+    pub defects: Vec<f64>,
+}
+
+/// The defect that stands for that of an element whose half steps cannot be solved for.
+const UNKNOWN: f64 = 1e-2;
+
+/// Estimates the error of `x`, at which `system` was linearised.
+///
+/// # Errors
+/// Where a section is refused.
+pub fn estimate(system: &mut System<'_, '_>, x: &Iterate) -> Result<Estimate, InvalidInput> {
+    let mesh = system.mesh;
+    let mut stepper = Stepper::new(mesh.problem, mesh.gauss)?;
+    let factor = 1.0 / (1.0 - 0.25_f64.powi(mesh.gauss.degree as i32));
+    let mut gaps = Vec::with_capacity(mesh.elements());
+    let mut sizes = Vec::with_capacity(mesh.elements());
+    for i in 0..mesh.elements() {
+        let (at, s, h) = (&x.nodes[i], mesh.nodes[i], mesh.length(i));
+        let strain = |c: f64| x.strain(mesh, i, c);
+        let (whole, _) = stepper.step(at, s, h, strain, false)?;
+        let (middle, first) = stepper.step(at, s, 0.5 * h, |c| strain(0.5 * c), true)?;
+        let (end, second) = stepper.step(&middle, s + 0.5 * h, 0.5 * h, |c| strain(0.5 + 0.5 * c), true)?;
+        let mut gap = [0.0; 9];
+        let position = (end.position - whole.position) * (factor / system.units.length);
+        let rotation = half_angle(&(end.rotation * whole.rotation.conjugate())) * (2.0 * factor);
+        // About the end itself: moments about a far origin would hide it.
+        let moment = (end.about_origin - whole.about_origin) * (factor / system.units.moment);
+        gap[..3].copy_from_slice(position.as_slice());
+        gap[3..6].copy_from_slice(rotation.as_slice());
+        gap[6..].copy_from_slice(moment.as_slice());
+        let size = gap.iter().map(|g| g * g).sum::<f64>().sqrt();
+        sizes.push(if first && second && size.is_finite() { size } else { UNKNOWN });
+        gaps.push(gap);
+    }
+    let correction = system.correction_for(gaps);
+    let mut error = largest(&correction, mesh.problem);
+    if sizes.contains(&UNKNOWN) {
+        error = error.max(UNKNOWN);
+    }
+    Ok(Estimate { error, defects: sizes })
+}
+
+fn largest(correction: &Correction, problem: &Problem) -> f64 {
+    let pose = |change: &[f64; 12]| {
+        let size = |i: usize| change[i].hypot(change[i + 1]).hypot(change[i + 2]);
+        size(0).max(size(3))
+    };
+    let nodes = correction.nodes.iter().map(pose);
+    let strains = correction.strains.iter().map(|e| strain_size(e, problem.length));
+    let nan_is_infinite = |m: f64, x: f64| {
+        if x <= m {
+            m
+        } else if x.is_nan() {
+            f64::INFINITY
+        } else {
+            x
+        }
+    };
+    nodes.chain(strains).fold(0.0, nan_is_infinite)
+}
+
+/// Error that a new mesh is made for, of the tolerance.
+const AIM: f64 = 0.2;
+/// By how much the number of elements may grow at once.
+const GROWTH: f64 = 4.0;
+/// Least density of elements, relative to its mean.
+const LEAST_DENSITY: f64 = 0.1;
+
+/// Nodes of a mesh on which all elements have the same defect, small enough for the error to meet the tolerance.
+#[must_use]
+pub fn refined(mesh: &Mesh<'_>, estimate: &Estimate, tolerance: f64) -> Vec<f64> {
+    let order = 2.0 * mesh.gauss.degree as f64;
+    let count = mesh.elements() as f64;
+    let shares: Vec<f64> = estimate.defects.iter().map(|d| d.max(1e-300).powf(1.0 / (order + 1.0))).collect();
+    let total: f64 = estimate.defects.iter().sum();
+    let integral: f64 = shares.iter().sum();
+    let amplified = estimate.error / total.max(1e-300);
+    let wanted = (amplified * integral.powf(order + 1.0) / (AIM * tolerance)).powf(1.0 / order);
+    let wanted = wanted.clamp(0.5 * count, GROWTH * count).max(1.0);
+    let length = mesh.problem.length;
+    // Elements per length, no element much longer than the mean.
+    let density: Vec<f64> = shares
+        .iter()
+        .enumerate()
+        .map(|(i, share)| (wanted * share / integral / mesh.length(i)).max(LEAST_DENSITY * wanted / length))
+        .collect();
+    let mut nodes = vec![0.0];
+    for pair in mesh.problem.breaks().windows(2) {
+        // Density between these breaks, summed up, and divided into equal parts.
+        let first = mesh.nodes.partition_point(|&s| s < pair[0]);
+        let last = mesh.nodes.partition_point(|&s| s < pair[1]);
+        let mut sums = vec![0.0];
+        for i in first..last {
+            sums.push(sums[sums.len() - 1] + density[i] * mesh.length(i));
+        }
+        let parts = sums[sums.len() - 1].ceil().max(1.0) as usize;
+        for part in 1..parts {
+            let place = sums[sums.len() - 1] * part as f64 / parts as f64;
+            let i = sums.partition_point(|&sum| sum <= place).clamp(1, sums.len() - 1);
+            let within = (place - sums[i - 1]) / (sums[i] - sums[i - 1]);
+            nodes.push(mesh.nodes[first + i - 1] + within * mesh.length(first + i - 1));
+        }
+        nodes.push(pair[1]);
+    }
+    nodes
+}
+
+/// The iterate on another mesh.
+///
+/// # Errors
+/// Where a section is refused.
+pub fn transferred(x: &Iterate, from: &Mesh<'_>, to: &Mesh<'_>) -> Result<Iterate, InvalidInput> {
+    let mut stepper = Stepper::new(from.problem, from.gauss)?;
+    let element = |s: f64| from.nodes.partition_point(|&node| node <= s).clamp(1, from.elements()) - 1;
+    let mut nodes = Vec::with_capacity(to.nodes.len());
+    for &s in &to.nodes {
+        let i = element(s);
+        let (start, h) = (from.nodes[i], from.length(i));
+        let part = s - start;
+        let known = if part == 0.0 { Some(i) } else { (s == from.nodes[i + 1]).then_some(i + 1) };
+        nodes.push(match known {
+            Some(node) => x.nodes[node],
+            None => stepper.step(&x.nodes[i], start, part, |c| x.strain(from, i, c * part / h), false)?.0,
+        });
+    }
+    let places = (0..to.elements()).flat_map(|i| to.places(i));
+    let strains = places.map(|s| {
+        let i = element(s);
+        x.strain(from, i, (s - from.nodes[i]) / from.length(i))
+    });
+    Ok(Iterate { strains: strains.collect(), nodes })
+}

@@ -1,0 +1,327 @@
+//! Block elimination of a chain of elements with its border.
+//!
+//! Unknown are `n` changes of state `x_i` at each node and `m` constants `p`. With `S` and `F` the six conditions
+//! at each end, and one row of blocks an element,
+//!
+//! ```text
+//!        x_0   x_1   x_2   ..   x_N  |  p
+//!      [  S                          |  S_p ]   6 rows
+//!      [ -A_0   J_1                  | -B_0 ]   n rows
+//!      [       -A_1   J_2            | -B_1 ]   n rows
+//!      [                 ..          |   :  ]
+//!      [                         F   |  F_p ]   n + m - 6 rows
+//! ```
+//!
+//! The six rows above and the `n` rows of an element are the panel in which `x_i` is eliminated, with partial pivoting
+//! among all of them (the alternation of conditions at both ends is what makes it stable: de Hoog & Mattheij 1987);
+//! six rows are left for the next. Cost and memory are linear in the number of elements.
+//!
+//! Where a point load makes the constants jump, `p_left = p_right + K x_i` is substituted.
+
+use nalgebra::{DMatrix, DVector, Dyn, SVD};
+
+use super::dense::{backward, eliminate, forward};
+
+/// Conditions at the start of the chain, and rows that are carried along.
+pub const CARRIED: usize = 6;
+
+/// A factorised chain.
+#[derive(Clone, Debug)]
+pub struct Chain {
+    n: usize,
+    m: usize,
+    panels: Vec<f64>,
+    swaps: Vec<usize>,
+    jumps: Vec<(usize, Vec<f64>)>,
+    last: Last,
+    carried: Vec<f64>,
+    pivot: f64,
+}
+
+/// The conditions at the end: the last panel.
+#[derive(Clone, Debug)]
+enum Last {
+    Open,
+    Factors {
+        block: Vec<f64>,
+        swaps: Vec<usize>,
+    },
+    /// Without its smallest singular value: the least change that does all the others ask.
+    Truncated(Box<SVD<f64, Dyn, Dyn>>),
+}
+
+/// Changes of the states `x_i` at the nodes, and of the constants in force to the right of each node.
+#[derive(Clone, Debug, Default)]
+pub struct Changes {
+    /// `n` numbers a node.
+    pub states: Vec<f64>,
+    /// `m` numbers a node.
+    pub constants: Vec<f64>,
+}
+
+impl Chain {
+    /// An empty chain.
+    #[must_use]
+    pub fn new(n: usize, m: usize) -> Self {
+        let carried = Vec::new();
+        let (panels, swaps, jumps) = (Vec::new(), Vec::new(), Vec::new());
+        Self { n, m, panels, swaps, jumps, last: Last::Open, carried, pivot: f64::INFINITY }
+    }
+
+    fn stride(&self) -> usize {
+        2 * self.n + self.m
+    }
+
+    fn panel_size(&self) -> usize {
+        (CARRIED + self.n) * self.stride()
+    }
+
+    /// Number of elements.
+    #[must_use]
+    pub fn elements(&self) -> usize {
+        self.swaps.len() / self.n
+    }
+
+    /// Begins with the six conditions at the start, `6 x (n + m)`.
+    pub fn start(&mut self, conditions: &[f64]) {
+        self.panels.clear();
+        self.swaps.clear();
+        self.jumps.clear();
+        self.pivot = f64::INFINITY;
+        self.last = Last::Open;
+        self.carried.clear();
+        self.carried.extend_from_slice(conditions);
+    }
+
+    /// Adds an element, `J x_{i+1} = A x_i + B p + ...`: `A` and `J` are `n x n`, `B` is `n x m`.
+    pub fn push(&mut self, a: &[f64], j: &[f64], b: &[f64]) {
+        let (n, m, stride) = (self.n, self.m, self.stride());
+        let first = self.panels.len();
+        self.panels.resize(first + self.panel_size(), 0.0);
+        let panel = &mut self.panels[first..];
+        for (row, carried) in panel.chunks_exact_mut(stride).zip(self.carried.chunks_exact(n + m)) {
+            row[..n].copy_from_slice(&carried[..n]);
+            row[2 * n..].copy_from_slice(&carried[n..]);
+        }
+        for (i, row) in panel[CARRIED * stride..].chunks_exact_mut(stride).enumerate() {
+            for k in 0..n {
+                row[k] = -a[i * n + k];
+            }
+            row[n..2 * n].copy_from_slice(&j[i * n..(i + 1) * n]);
+            for k in 0..m {
+                row[2 * n + k] = -b[i * m + k];
+            }
+        }
+        let swap = self.swaps.len();
+        self.swaps.resize(swap + n, 0);
+        let pivot = eliminate(panel, stride, n, &mut self.swaps[swap..]);
+        // Not `min`, which would drop NaN.
+        self.pivot = if pivot >= self.pivot { self.pivot } else { pivot };
+        for (row, carried) in
+            panel[n * stride..].chunks_exact(stride).zip(self.carried.chunks_exact_mut(n + m))
+        {
+            carried.copy_from_slice(&row[n..]);
+        }
+    }
+
+    /// At the node just reached, `p_left = p_right + K x`, with `K` of `m x n`.
+    pub fn jump(&mut self, k: Vec<f64>) {
+        let (n, m) = (self.n, self.m);
+        for row in self.carried.chunks_exact_mut(n + m) {
+            let (x, p) = row.split_at_mut(n);
+            for (factor, k) in p.iter().zip(k.chunks_exact(n)) {
+                x.iter_mut().zip(k).for_each(|(x, k)| *x += factor * k);
+            }
+        }
+        self.jumps.push((self.elements(), k));
+    }
+
+    /// Ends with the conditions at the end, `(n + m - 6) x (n + m)`; `truncate` leaves out the least singular value.
+    pub fn finish(&mut self, conditions: &[f64], truncate: bool) {
+        let size = self.n + self.m;
+        let mut block = self.carried.clone();
+        block.extend_from_slice(conditions);
+        if truncate {
+            let matrix = DMatrix::from_row_slice(size, size, &block);
+            let finite = block.iter().all(|x| x.is_finite());
+            self.pivot = if finite { self.pivot } else { f64::NAN };
+            if finite {
+                self.last = Last::Truncated(Box::new(matrix.svd(true, true)));
+            }
+            return;
+        }
+        let mut swaps = vec![0; size];
+        let pivot = eliminate(&mut block, size, size, &mut swaps);
+        self.pivot = if pivot >= self.pivot { self.pivot } else { pivot };
+        self.last = Last::Factors { block, swaps };
+    }
+
+    /// The least relative pivot met: of the order of rounding, zero or NaN where the chain is singular.
+    #[must_use]
+    pub fn pivot(&self) -> f64 {
+        self.pivot
+    }
+
+    /// Condition number, in the 1-norm, of what is left for the last node and the constants.
+    #[must_use]
+    pub fn condition(&self) -> f64 {
+        let size = self.n + self.m;
+        match &self.last {
+            Last::Open => f64::INFINITY,
+            Last::Truncated(svd) => {
+                let kept = &svd.singular_values;
+                kept.max() / kept.as_slice()[..size - 1].iter().copied().fold(f64::INFINITY, f64::min)
+            }
+            Last::Factors { block, swaps } => {
+                let mut inverse = 0.0_f64;
+                let mut norm = 0.0_f64;
+                for column in 0..size {
+                    let mut rhs = vec![0.0; size];
+                    rhs[column] = 1.0;
+                    forward(block, size, swaps, &mut rhs);
+                    backward(block, size, &mut rhs);
+                    inverse = inverse.max(rhs.iter().map(|x| x.abs()).sum());
+                    // The factors' product, column by column, is the block.
+                    let mut product = vec![0.0; size];
+                    for (row, value) in product.iter_mut().enumerate() {
+                        let terms = (0..=column.min(row)).map(|k| {
+                            let lower = if k == row { 1.0 } else { block[row * size + k] };
+                            lower * block[k * size + column]
+                        });
+                        *value = terms.sum();
+                    }
+                    norm = norm.max(product.iter().map(|x: &f64| x.abs()).sum());
+                }
+                norm * inverse
+            }
+        }
+    }
+
+    /// Solves for right-hand sides at the start (6), of the elements (`n` each) and at the end.
+    #[must_use]
+    pub fn solve(&self, start: &[f64], elements: &[f64], end: &[f64]) -> Changes {
+        let (n, m, stride) = (self.n, self.m, self.stride());
+        let mut carried = start.to_vec();
+        let mut kept = vec![0.0; elements.len()];
+        let mut rhs = vec![0.0; CARRIED + n];
+        for (i, own) in elements.chunks_exact(n).enumerate() {
+            rhs[..CARRIED].copy_from_slice(&carried);
+            rhs[CARRIED..].copy_from_slice(own);
+            let panel = &self.panels[i * self.panel_size()..(i + 1) * self.panel_size()];
+            forward(panel, stride, &self.swaps[i * n..(i + 1) * n], &mut rhs);
+            kept[i * n..(i + 1) * n].copy_from_slice(&rhs[..n]);
+            carried.copy_from_slice(&rhs[n..]);
+        }
+        carried.extend_from_slice(end);
+        self.solve_last(&mut carried);
+        let count = self.elements() + 1;
+        let mut states = vec![0.0; n * count];
+        let mut constants = vec![0.0; m * count];
+        states[n * (count - 1)..].copy_from_slice(&carried[..n]);
+        constants[m * (count - 1)..].copy_from_slice(&carried[n..]);
+        let mut jumps = self.jumps.iter().rev().peekable();
+        for i in (0..count - 1).rev() {
+            let (head, next) = states.split_at_mut((i + 1) * n);
+            let next = &next[..n];
+            let (before, after) = constants.split_at_mut((i + 1) * m);
+            let p = &mut before[i * m..];
+            p.copy_from_slice(&after[..m]);
+            while let Some((_, k)) = jumps.next_if(|(node, _)| *node == i + 1) {
+                for (value, k) in p.iter_mut().zip(k.chunks_exact(n)) {
+                    *value += k.iter().zip(next).map(|(k, x)| k * x).sum::<f64>();
+                }
+            }
+            let panel = &self.panels[i * self.panel_size()..(i + 1) * self.panel_size()];
+            let x = &mut head[i * n..];
+            for (row, value) in x.iter_mut().enumerate() {
+                let known = &panel[row * stride + n..(row + 1) * stride];
+                let state: f64 = known[..n].iter().zip(next).map(|(a, x)| a * x).sum();
+                let constant: f64 = known[n..].iter().zip(&*p).map(|(a, x)| a * x).sum();
+                *value = kept[i * n + row] - state - constant;
+            }
+            backward(panel, stride, x);
+        }
+        Changes { states, constants }
+    }
+
+    fn solve_last(&self, rhs: &mut Vec<f64>) {
+        let size = self.n + self.m;
+        match &self.last {
+            Last::Open => rhs.fill(f64::NAN),
+            Last::Factors { block, swaps } => {
+                forward(block, size, swaps, rhs);
+                backward(block, size, rhs);
+            }
+            Last::Truncated(svd) => {
+                let least = svd.singular_values.iter().copied().fold(f64::INFINITY, f64::min);
+                let solved = svd.solve(&DVector::from_column_slice(rhs), least);
+                match solved {
+                    Ok(x) => rhs.copy_from_slice(x.as_slice()),
+                    Err(_) => rhs.fill(f64::NAN),
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Reproducible numbers in [-1, 1].
+    fn numbers(count: usize, seed: u64) -> Vec<f64> {
+        let mut state = seed;
+        let next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        };
+        std::iter::repeat_with(next).take(count).collect()
+    }
+
+    /// The whole matrix, dense, with a jump of the constants at the second node.
+    #[test]
+    fn solves_as_a_dense_matrix_does() {
+        for (n, m) in [(6, 6), (9, 3), (12, 0)] {
+            let count = 4;
+            let size = (count + 1) * n + m;
+            let random = |rows, cols, seed| DMatrix::from_row_slice(rows, cols, &numbers(rows * cols, seed));
+            let (start, end) = (random(6, n + m, 1), random(n + m - 6, n + m, 2));
+            let k = 0.5 * random(m, n, 3);
+            let mut matrix = DMatrix::zeros(size, size);
+            let mut chain = Chain::new(n, m);
+            let slice = |matrix: &DMatrix<f64>| matrix.transpose().as_slice().to_vec();
+            chain.start(&slice(&start));
+            matrix.view_mut((0, 0), (6, n)).copy_from(&start.columns(0, n));
+            matrix.view_mut((0, size - m), (6, m)).copy_from(&start.columns(n, m));
+            for i in 0..count {
+                let (a, b) = (random(n, n, 10 + i as u64), random(n, m, 20 + i as u64));
+                let j = DMatrix::identity(n, n) + 0.1 * random(n, n, 30 + i as u64);
+                chain.push(&slice(&a), &slice(&j), &slice(&b));
+                let row = 6 + i * n;
+                matrix.view_mut((row, i * n), (n, n)).copy_from(&-a);
+                matrix.view_mut((row, (i + 1) * n), (n, n)).copy_from(&j);
+                matrix.view_mut((row, size - m), (n, m)).copy_from(&-b);
+                if i == 1 {
+                    chain.jump(slice(&k));
+                }
+            }
+            // Rows above the jump see the constants to its left.
+            let left = matrix.view((0, size - m), (6 + 2 * n, m)) * &k;
+            let mut block = matrix.view_mut((0, 2 * n), (6 + 2 * n, n));
+            block += left;
+            matrix.view_mut((size + 6 - n - m, count * n), (n + m - 6, n)).copy_from(&end.columns(0, n));
+            matrix.view_mut((size + 6 - n - m, size - m), (n + m - 6, m)).copy_from(&end.columns(n, m));
+            chain.finish(&slice(&end), false);
+            let rhs = numbers(size, 99);
+            let split = 6 + count * n;
+            let found = chain.solve(&rhs[..6], &rhs[6..split], &rhs[split..]);
+            let exact = matrix.lu().solve(&DVector::from_vec(rhs)).unwrap();
+            for (x, y) in found.states.iter().zip(exact.iter()) {
+                assert!((x - y).abs() < 1e-11 * exact.amax(), "{n} {m}: {x} {y}");
+            }
+            for (x, y) in found.constants[m * count..].iter().zip(exact.iter().skip(size - m)) {
+                assert!((x - y).abs() < 1e-11 * exact.amax());
+            }
+        }
+    }
+}

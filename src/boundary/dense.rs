@@ -1,0 +1,91 @@
+//! Gaussian elimination on small dense blocks, stored by rows.
+
+/// Eliminates the first `pivots` columns of a block of rows of length `stride`, with partial pivoting.
+///
+/// The multipliers stay in the place of what they eliminated, the rows are exchanged as a whole, and `swaps`
+/// takes the pivot row of each column. Returns the least pivot relative to the largest entry its column had:
+/// of the order of rounding where the block is singular.
+pub fn eliminate(block: &mut [f64], stride: usize, pivots: usize, swaps: &mut [usize]) -> f64 {
+    let rows = block.len() / stride;
+    let mut least = f64::INFINITY;
+    for k in 0..pivots {
+        let scale = block.iter().skip(k).step_by(stride).fold(0.0, |m: f64, x| m.max(x.abs()));
+        let size = |row: usize| block[row * stride + k].abs();
+        let pivot = (k..rows).fold(k, |best, row| if size(row) > size(best) { row } else { best });
+        swaps[k] = pivot;
+        if pivot != k {
+            let (head, tail) = block.split_at_mut(pivot * stride);
+            head[k * stride..(k + 1) * stride].swap_with_slice(&mut tail[..stride]);
+        }
+        let (head, tail) = block.split_at_mut((k + 1) * stride);
+        let row = &head[k * stride..];
+        // A zero or NaN pivot makes `least` zero or NaN, which the caller refuses.
+        least = if row[k].abs() >= least * scale { least } else { row[k].abs() / scale };
+        if row[k] == 0.0 {
+            return 0.0;
+        }
+        let inverse = 1.0 / row[k];
+        for other in tail.chunks_exact_mut(stride) {
+            let factor = other[k] * inverse;
+            other[k] = factor;
+            if factor != 0.0 {
+                for (x, y) in other[k + 1..].iter_mut().zip(&row[k + 1..]) {
+                    *x -= factor * y;
+                }
+            }
+        }
+    }
+    least
+}
+
+/// Does to a right-hand side, one number a row, what [`eliminate`] did to the block.
+pub fn forward(block: &[f64], stride: usize, swaps: &[usize], rhs: &mut [f64]) {
+    // Rows were exchanged with the multipliers they had by then.
+    for (k, &pivot) in swaps.iter().enumerate() {
+        rhs.swap(k, pivot);
+    }
+    for k in 0..swaps.len() {
+        let value = rhs[k];
+        for (row, x) in rhs.iter_mut().enumerate().skip(k + 1) {
+            *x -= block[row * stride + k] * value;
+        }
+    }
+}
+
+/// Solves with the upper triangle of the first `rhs.len()` rows and columns.
+pub fn backward(block: &[f64], stride: usize, rhs: &mut [f64]) {
+    for k in (0..rhs.len()).rev() {
+        let row = &block[k * stride..];
+        let known: f64 = row[k + 1..rhs.len()].iter().zip(&rhs[k + 1..]).map(|(a, x)| a * x).sum();
+        rhs[k] = (rhs[k] - known) / row[k];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn solves_what_it_eliminated() {
+        // Rows of a system whose first pivot is zero.
+        let matrix = [0.0, 2.0, 1.0, 1.0, 1.0, 0.0, 2.0, 0.0, 3.0];
+        let solution = [1.0, -2.0, 3.0];
+        let mut rhs: Vec<f64> =
+            matrix.chunks(3).map(|row| row.iter().zip(&solution).map(|(a, x)| a * x).sum()).collect();
+        let (mut block, mut swaps) = (matrix, [0; 3]);
+        assert!(eliminate(&mut block, 3, 3, &mut swaps) > 0.1);
+        forward(&block, 3, &swaps, &mut rhs);
+        backward(&block, 3, &mut rhs);
+        for (x, y) in rhs.iter().zip(solution) {
+            assert!((x - y).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn a_singular_block_is_told() {
+        let mut block = [1.0, 2.0, 2.0, 4.0 * (1.0 + 1e-16)];
+        assert!(eliminate(&mut block, 2, 2, &mut [0; 2]) < 1e-15);
+        assert_eq!(eliminate(&mut [0.0; 4], 2, 2, &mut [0; 2]), 0.0);
+        assert!(!(eliminate(&mut [f64::NAN, 1.0, 1.0, 1.0], 2, 2, &mut [0; 2]) > 1e-15));
+    }
+}

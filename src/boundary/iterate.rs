@@ -1,0 +1,130 @@
+//! The unknowns of the boundary-value problem, and how they change.
+
+use nalgebra::{Quaternion, Vector3};
+
+use super::ends::{At, Units};
+use super::mesh::Mesh;
+use crate::frame::Twist;
+use crate::section::Strain;
+
+type Vector = Vector3<f64>;
+
+/// Which resultants are states that vary along the ribbon; the others are constants but for known jumps.
+///
+/// | loads | states | constants |
+/// |---|---|---|
+/// | at ends and points | `r`, `q` | `N`, `M + r x N` |
+/// | distributed | `r`, `q`, `M + r x N` | `N` |
+/// | any | `r`, `q`, `M + r x N`, `N` | none |
+///
+/// A quaternion changes by a rotation, three numbers, and keeps its norm: a system of 7 states has 6 unknowns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// 7 states.
+    Constant,
+    /// 10 states.
+    Moment,
+    /// 13 states.
+    Full,
+}
+
+impl Layout {
+    /// Places, among the changes of `r`, rotation, `N` and `M + r x N` (three each), of the states.
+    #[must_use]
+    pub fn states(self) -> &'static [usize] {
+        match self {
+            Self::Constant => &[0, 1, 2, 3, 4, 5],
+            Self::Moment => &[0, 1, 2, 3, 4, 5, 9, 10, 11],
+            Self::Full => &[0, 1, 2, 3, 4, 5, 9, 10, 11, 6, 7, 8],
+        }
+    }
+
+    /// Places of the constants.
+    #[must_use]
+    pub fn constants(self) -> &'static [usize] {
+        match self {
+            Self::Constant => &[6, 7, 8, 9, 10, 11],
+            Self::Moment => &[6, 7, 8],
+            Self::Full => &[],
+        }
+    }
+}
+
+/// States at the nodes, right of point loads, and strains at the stages.
+#[derive(Clone, Debug)]
+pub struct Iterate {
+    /// At the nodes.
+    pub nodes: Vec<At>,
+    /// At the stages, element by element.
+    pub strains: Vec<Strain>,
+}
+
+/// A change of an [`Iterate`], in the units of the problem.
+#[derive(Clone, Debug)]
+pub struct Correction {
+    /// Of `r`, rotation, `N`, `M + r x N` at the nodes.
+    pub nodes: Vec<[f64; 12]>,
+    /// Of the strains.
+    pub strains: Vec<Strain>,
+}
+
+impl Iterate {
+    /// The iterate moved by `fraction` of a correction.
+    #[must_use]
+    pub fn moved(&self, by: &Correction, fraction: f64, units: &Units) -> Self {
+        let vector = |change: &[f64; 12], i| Vector::new(change[i], change[i + 1], change[i + 2]) * fraction;
+        let node = |(at, change): (&At, &[f64; 12])| {
+            let turn = Twist { angular: vector(change, 3), linear: Vector::zeros() };
+            let rotation = turn.exponential().0 * at.rotation;
+            At {
+                position: at.position + units.length * vector(change, 0),
+                rotation: rotation * (1.5 - 0.5 * rotation.norm_squared()),
+                force: at.force + units.force * vector(change, 6),
+                about_origin: at.about_origin + units.moment * vector(change, 9),
+            }
+        };
+        let strains = self.strains.iter().zip(&by.strains).map(|(e, change)| e + fraction * change);
+        Self { nodes: self.nodes.iter().zip(&by.nodes).map(node).collect(), strains: strains.collect() }
+    }
+
+    /// Strains at `x` in [0, 1] of an element, by the polynomial through its stages.
+    #[must_use]
+    pub fn strain(&self, mesh: &Mesh<'_>, element: usize, x: f64) -> Strain {
+        let s = mesh.gauss.degree;
+        let basis = mesh.gauss.basis(x);
+        let strains = &self.strains[element * s..(element + 1) * s];
+        strains.iter().zip(basis).map(|(e, l)| e * l).sum()
+    }
+}
+
+impl Correction {
+    /// Size: root mean square, over the length, of changes of position/L, angles, `eps` and `K L`.
+    #[must_use]
+    pub fn norm(&self, mesh: &Mesh<'_>) -> f64 {
+        let length = mesh.problem.length;
+        let s = mesh.gauss.degree;
+        let mut sum = 0.0;
+        for i in 0..mesh.elements() {
+            let pose = |change: &[f64; 12]| change[..6].iter().map(|x| x * x).sum::<f64>();
+            let mut local = 0.5 * (pose(&self.nodes[i]) + pose(&self.nodes[i + 1]));
+            for (e, weight) in self.strains[i * s..(i + 1) * s].iter().zip(&mesh.gauss.weights) {
+                local += weight * strain_size(e, length).powi(2);
+            }
+            sum += local * mesh.length(i) / length;
+        }
+        sum.sqrt()
+    }
+}
+
+/// Size of a strain: that of `eps` and `K L`.
+#[must_use]
+pub fn strain_size(e: &Strain, length: f64) -> f64 {
+    let k = Vector::new(e[1], e[2], e[3]).norm() * length;
+    e[0].hypot(k)
+}
+
+/// A pose and wrench at rest.
+#[must_use]
+pub fn at_rest(position: Vector, rotation: Quaternion<f64>) -> At {
+    At { position, rotation, force: Vector::zeros(), about_origin: Vector::zeros() }
+}

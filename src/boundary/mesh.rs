@@ -1,0 +1,112 @@
+//! Elements, and what is given on them.
+
+use nalgebra::Vector3;
+
+use super::gauss::Gauss;
+use super::law::Response;
+use super::problem::Problem;
+use crate::InvalidInput;
+
+type Vector = Vector3<f64>;
+
+/// Sections that are kept; beyond, those of a ribbon that varies are made when needed.
+const KEPT_STAGES: usize = 20_000;
+
+/// The elements of a problem, with its law and loads at their stages.
+pub struct Mesh<'a> {
+    /// The problem.
+    pub problem: &'a Problem,
+    /// The collocation.
+    pub gauss: &'static Gauss,
+    /// Ends of the elements, `0` to `L`.
+    pub nodes: Vec<f64>,
+    /// At each node the point load there: its force and moment.
+    pub points: Vec<Option<(Vector, Vector)>>,
+    /// One for a uniform ribbon, one a stage for one that varies, none if there are too many.
+    responses: Vec<Response<'a>>,
+    /// Distributed force and couple at the stages; none if nothing is distributed.
+    load: Vec<(Vector, Vector)>,
+}
+
+impl<'a> Mesh<'a> {
+    /// The mesh with these nodes, among them all breaks of the problem.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    pub fn new(problem: &'a Problem, nodes: Vec<f64>, degree: usize) -> Result<Self, InvalidInput> {
+        let gauss = Gauss::of(degree);
+        let mut points = vec![None; nodes.len()];
+        for point in &problem.points {
+            let node = nodes.partition_point(|&s| s < point.s);
+            let (force, moment) = points[node].unwrap_or((Vector::zeros(), Vector::zeros()));
+            points[node] = Some((force + point.force, moment + point.moment));
+        }
+        let mut mesh = Self { problem, gauss, nodes, points, responses: Vec::new(), load: Vec::new() };
+        if !problem.law.varies() {
+            mesh.responses.push(problem.law.at(0.0)?);
+        } else if mesh.stages() <= KEPT_STAGES {
+            mesh.responses = (0..mesh.elements())
+                .flat_map(|i| mesh.places(i))
+                .map(|s| problem.law.at(s))
+                .collect::<Result<_, _>>()?;
+        }
+        if problem.has_line_load() {
+            let places = (0..mesh.elements()).flat_map(|i| mesh.places(i));
+            mesh.load = places.map(|s| problem.line_load(s)).collect();
+        }
+        Ok(mesh)
+    }
+
+    /// Number of elements.
+    #[must_use]
+    pub fn elements(&self) -> usize {
+        self.nodes.len() - 1
+    }
+
+    /// Number of stages of all elements.
+    #[must_use]
+    pub fn stages(&self) -> usize {
+        self.elements() * self.gauss.degree
+    }
+
+    /// Length of an element.
+    #[must_use]
+    pub fn length(&self, element: usize) -> f64 {
+        self.nodes[element + 1] - self.nodes[element]
+    }
+
+    /// Where the stages of an element are.
+    #[must_use]
+    pub fn places(&self, element: usize) -> Vec<f64> {
+        let (from, length) = (self.nodes[element], self.length(element));
+        self.gauss.nodes.iter().map(|c| from + c * length).collect()
+    }
+
+    /// The law at the stages of an element, made here if it is not kept.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    pub fn responses<'b>(
+        &'b self,
+        element: usize,
+        made: &'b mut Vec<Response<'a>>,
+    ) -> Result<&'b [Response<'a>], InvalidInput> {
+        let degree = self.gauss.degree;
+        if self.responses.len() == 1 && !self.problem.law.varies() {
+            return Ok(&self.responses);
+        }
+        if !self.responses.is_empty() {
+            return Ok(&self.responses[element * degree..(element + 1) * degree]);
+        }
+        let places = self.places(element).into_iter();
+        *made = places.map(|s| self.problem.law.at(s)).collect::<Result<_, _>>()?;
+        Ok(made)
+    }
+
+    /// Distributed load at the stages of an element.
+    #[must_use]
+    pub fn load(&self, element: usize) -> &[(Vector, Vector)] {
+        let degree = self.gauss.degree;
+        if self.load.is_empty() { &[] } else { &self.load[element * degree..(element + 1) * degree] }
+    }
+}

@@ -1,0 +1,46 @@
+//! Ribbons that are held and loaded: the boundary-value problem and its solver.
+//!
+//! ```text
+//! N' + p = 0,   M' + r' x N + c = 0,   r' = (1 + eps) d3,   q' = q (0, K)/2,   n = dPi/d(eps, K)
+//! ```
+//!
+//! (Liu, Li & Liu, eqs. (40), (43), (60), (66), (67)), with force `N` and moment `M` in the fixed basis, dead loads `p`, `c`,
+//! and six conditions at each end. Gauss collocation; the strains are algebraic unknowns at the stages.
+//!
+//! | file | role |
+//! |---|---|
+//! | `problem`, `ends`, `law` | what is given |
+//! | `gauss`, `element` | one element: stages, linearisation, elimination of its strains |
+//! | `chain`, `dense` | elimination of the nodes |
+//! | `mesh`, `iterate`, `system` | all elements: unknowns, residual, Jacobian |
+//! | `newton`, `path` | the nonlinear equations, from a known shape |
+//! | `step`, `adapt` | dense output, errors and meshes |
+//! | `check` | an independent residual |
+//! | `solve`, `solution` | the whole, and what it gives |
+
+mod adapt;
+mod chain;
+mod check;
+mod dense;
+mod element;
+mod ends;
+mod gauss;
+mod iterate;
+mod law;
+mod mesh;
+mod newton;
+mod path;
+mod problem;
+mod solution;
+mod solve;
+mod step;
+mod system;
+
+pub use ends::{At, End, Hold};
+pub use gauss::MAX_DEGREE;
+pub use iterate::{Iterate, Layout};
+pub use law::{Law, Rod};
+pub use path::Guess;
+pub use problem::{LineLoad, PointLoad, Problem};
+pub use solution::{SectionState, Solution, Wrench};
+pub use solve::{DEGREE, Report, Settings, Status};

@@ -1,0 +1,228 @@
+//! A solution: its state anywhere, and what follows from it.
+
+use std::sync::Arc;
+
+use nalgebra::Vector3;
+
+use super::ends::{At, Hold, directors};
+use super::gauss::Gauss;
+use super::iterate::Iterate;
+use super::mesh::Mesh;
+use super::path::Guess;
+use super::problem::Problem;
+use super::solve::{Report, Settings, solve};
+use super::step::{Stepper, pointwise};
+use crate::InvalidInput;
+use crate::section::Strain;
+
+type Vector = Vector3<f64>;
+
+/// The solution of a [`Problem`], or the last state that was reached.
+#[derive(Debug)]
+pub struct Solution {
+    problem: Arc<Problem>,
+    degree: usize,
+    nodes: Vec<f64>,
+    x: Iterate,
+    /// How it was found.
+    pub report: Report,
+    /// Elastic energy, over the whole ribbon.
+    pub energy: f64,
+    /// Minus the work of dead forces, on displacements from the origin.
+    pub load_potential: f64,
+    /// Largest number of negative eigenvalues of the tangent stiffness of a section, at the stages.
+    pub section_index: usize,
+}
+
+/// The state of one section.
+#[derive(Clone, Copy, Debug)]
+pub struct SectionState {
+    /// Strains.
+    pub strain: Strain,
+    /// Position, orientation, and resultants in the fixed basis.
+    pub at: At,
+}
+
+/// A force and a moment.
+pub type Wrench = (Vector, Vector);
+
+impl SectionState {
+    /// Force and moment on the directors.
+    #[must_use]
+    pub fn on_directors(&self) -> Wrench {
+        let frame = directors(&self.at.rotation);
+        (frame.tr_mul(&self.at.force), frame.tr_mul(&self.at.moment()))
+    }
+
+    /// `(n3, m1, m2, m3)`.
+    fn resultants(at: &At) -> Strain {
+        let frame = directors(&at.rotation);
+        let m = frame.tr_mul(&at.moment());
+        Strain::new(frame.column(2).dot(&at.force), m.x, m.y, m.z)
+    }
+}
+
+impl Solution {
+    /// Solves the problem; [`Report::status`] tells how it ended.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    ///
+    /// # Example
+    /// A clamped rod under a dead force at its tip, bent through more than a right angle (Mattiasson 1981).
+    /// ```
+    /// use std::sync::Arc;
+    /// use nalgebra::{Quaternion, Vector3};
+    /// use ribbonrs::boundary::{End, Hold, Law, LineLoad, Problem, Rod, Settings, Solution};
+    /// use ribbonrs::section::{Amplitude, Strain};
+    /// let end = |hold, force| End {
+    ///     hold,
+    ///     position: Vector3::zeros(),
+    ///     rotation: Quaternion::new(1.0, 0.0, 0.0, 0.0),
+    ///     turns: 0.0,
+    ///     force,
+    ///     moment: Vector3::zeros(),
+    /// };
+    /// let rod = Rod { compliance: Strain::new(0.0, 1.0, 1.0, 1.0), intrinsic: Strain::zeros() };
+    /// let ends = [end(Hold::Clamped, Vector3::zeros()), end(Hold::Free, Vector3::new(10.0, 0.0, 0.0))];
+    /// let none = || [0.0; 3].map(Amplitude::Constant);
+    /// let line = LineLoad { force: none(), moment: none() };
+    /// let problem = Arc::new(Problem::new(Law::Rod(rod), 1.0, ends, vec![], line)?);
+    /// let solution = Solution::of(problem, &Settings::default(), None)?;
+    /// let tip = solution.at(1.0)?.at.position;
+    /// assert!((tip.x - 0.81060902).abs() < 1e-8 && (1.0 - tip.z - 0.55499560).abs() < 1e-8);
+    /// # Ok::<(), ribbonrs::InvalidInput>(())
+    /// ```
+    pub fn of(
+        problem: Arc<Problem>,
+        settings: &Settings,
+        guess: Option<&Guess>,
+    ) -> Result<Self, InvalidInput> {
+        let solved = solve(&problem, settings, guess)?;
+        Self::from_parts(problem, settings.degree, solved.nodes, solved.x, solved.report)
+    }
+
+    /// A solution from its parts.
+    ///
+    /// # Errors
+    /// If their numbers do not match, or a section is refused.
+    pub fn from_parts(
+        problem: Arc<Problem>,
+        degree: usize,
+        nodes: Vec<f64>,
+        x: Iterate,
+        report: Report,
+    ) -> Result<Self, InvalidInput> {
+        let count = nodes.len();
+        if count < 2 || x.nodes.len() != count || x.strains.len() != (count - 1) * degree {
+            let found = format!("{count} nodes, {} states, {} strains", x.nodes.len(), x.strains.len());
+            return Err(InvalidInput::new("parts", found, "a state a node and `degree` strains an element"));
+        }
+        let mesh = Mesh::new(&problem, nodes, degree)?;
+        let (mut energy, mut load_potential, mut section_index) = (0.0, 0.0, 0);
+        let mut stepper = Stepper::new(&problem, mesh.gauss)?;
+        for i in 0..mesh.elements() {
+            let mut made = Vec::new();
+            let responses = mesh.responses(i, &mut made)?;
+            let (s, h) = (mesh.nodes[i], mesh.length(i));
+            for (j, &c) in mesh.gauss.nodes.iter().enumerate() {
+                let response = &responses[if responses.len() == 1 { 0 } else { j }];
+                let strain = x.strains[i * degree + j];
+                let weight = h * mesh.gauss.weights[j];
+                // A stage is as accurate as the polynomial: what follows is not more.
+                let resultants = response.value_alone(&strain);
+                let resultants =
+                    resultants.zip_map(&response.compliance, |v, c| if c > 0.0 { v / c } else { 0.0 });
+                energy += weight * response.energy(&strain, &resultants);
+                section_index = section_index.max(response.index(&strain));
+                if problem.has_line_force() {
+                    let strains = |y: f64| x.strain(&mesh, i, c * y);
+                    let (at, _) = stepper.step(&x.nodes[i], s, c * h, strains, false)?;
+                    load_potential -= weight * problem.line_load(s + c * h).0.dot(&at.position);
+                }
+            }
+            if let Some((force, _)) = mesh.points[i + 1] {
+                load_potential -= force.dot(&x.nodes[i + 1].position);
+            }
+        }
+        for (end, at) in problem.ends.iter().zip([&x.nodes[0], &x.nodes[count - 1]]) {
+            if matches!(end.hold, Hold::Free | Hold::Sliding(_)) {
+                load_potential -= end.force.dot(&at.position);
+            }
+        }
+        let nodes = mesh.nodes;
+        Ok(Self { problem, degree, nodes, x, report, energy, load_potential, section_index })
+    }
+
+    /// The problem.
+    #[must_use]
+    pub fn problem(&self) -> &Arc<Problem> {
+        &self.problem
+    }
+
+    /// Degree of the collocation.
+    #[must_use]
+    pub fn degree(&self) -> usize {
+        self.degree
+    }
+
+    /// Ends of the elements.
+    #[must_use]
+    pub fn nodes(&self) -> &[f64] {
+        &self.nodes
+    }
+
+    /// States at the nodes and strains at the stages.
+    #[must_use]
+    pub fn iterate(&self) -> &Iterate {
+        &self.x
+    }
+
+    /// The state at `s` in `[0, L]`, right of a point load.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    pub fn at(&self, s: f64) -> Result<SectionState, InvalidInput> {
+        Ok(self.many(&[s])?[0])
+    }
+
+    /// The states at many `s`, each as accurate as the nodes: by a step of the method from the node before, and the
+    /// strains from the resultants there.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    pub fn many(&self, places: &[f64]) -> Result<Vec<SectionState>, InvalidInput> {
+        let problem = &self.problem;
+        let gauss = Gauss::of(self.degree);
+        let mut stepper = Stepper::new(problem, gauss)?;
+        let count = self.nodes.len() - 1;
+        let mut states = Vec::with_capacity(places.len());
+        for &s in places {
+            let i = self.nodes.partition_point(|&node| node <= s).clamp(1, count) - 1;
+            let (start, h) = (self.nodes[i], self.nodes[i + 1] - self.nodes[i]);
+            let strains = &self.x.strains[i * self.degree..(i + 1) * self.degree];
+            let strain = |x: f64| -> Strain { strains.iter().zip(gauss.basis(x)).map(|(e, l)| e * l).sum() };
+            let x = ((s - start) / h).clamp(0.0, 1.0);
+            let at = if x == 0.0 {
+                self.x.nodes[i]
+            } else if x == 1.0 {
+                self.x.nodes[i + 1]
+            } else {
+                let (mut at, _) = stepper.step(&self.x.nodes[i], start, x * h, |c| strain(x * c), true)?;
+                at.rotation *= 1.0 / at.rotation.norm();
+                at
+            };
+            let response = problem.law.at(s)?;
+            let strain = pointwise(&response, &SectionState::resultants(&at), strain(x));
+            states.push(SectionState { strain, at });
+        }
+        Ok(states)
+    }
+
+    /// Force and moment that the start and the end exert on the ribbon, in the fixed basis, moments about the end itself.
+    #[must_use]
+    pub fn reactions(&self) -> [Wrench; 2] {
+        let wrench = |at: &At, outward: f64| (outward * at.force, outward * at.moment());
+        [wrench(&self.x.nodes[0], -1.0), wrench(&self.x.nodes[self.nodes.len() - 1], 1.0)]
+    }
+}

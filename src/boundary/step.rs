@@ -1,0 +1,140 @@
+//! A Gauss step from a node: the initial-value problem on part of an element.
+//!
+//! From a node, where the solution is accurate to twice the degree, a step of the same method is so anywhere in the
+//! element: it gives the dense output and, in two halves, the defect of the element.
+
+use nalgebra::Vector3;
+
+use super::element::{Eliminated, Entry, Exit, Span, Stages};
+use super::ends::At;
+use super::gauss::{Gauss, MAX_DEGREE};
+use super::law::Response;
+use super::problem::Problem;
+use crate::InvalidInput;
+use crate::section::Strain;
+
+/// Steps of one degree, with room for their work.
+pub struct Stepper<'p> {
+    problem: &'p Problem,
+    gauss: &'static Gauss,
+    stages: Box<Stages>,
+    eliminated: Eliminated,
+    uniform: Option<Response<'p>>,
+}
+
+/// Newton iterations of the stages; from the polynomial of an element two or three do.
+const ITERATIONS: usize = 8;
+
+impl<'p> Stepper<'p> {
+    /// A stepper.
+    ///
+    /// # Errors
+    /// Where the section is refused.
+    pub fn new(problem: &'p Problem, gauss: &'static Gauss) -> Result<Self, InvalidInput> {
+        let uniform = if problem.law.varies() { None } else { Some(problem.law.at(0.0)?) };
+        Ok(Self { problem, gauss, stages: Box::default(), eliminated: Eliminated::default(), uniform })
+    }
+
+    /// From `at` over `length` from `s`, with strains that are solved for, starting from those of `guess` at the fractions
+    /// of the step, or, if they cannot be, are those of `guess`. Returns the end and whether they were solved for.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    pub fn step(
+        &mut self,
+        at: &At,
+        s: f64,
+        length: f64,
+        guess: impl Fn(f64) -> Strain,
+        solve: bool,
+    ) -> Result<(At, bool), InvalidInput> {
+        let gauss = self.gauss;
+        let degree = gauss.degree;
+        let places = gauss.nodes.iter().map(|c| s + c * length);
+        let made: Vec<Response<'p>>;
+        let responses = match &self.uniform {
+            Some(response) => std::slice::from_ref(response),
+            None => {
+                made = places.clone().map(|s| self.problem.law.at(s)).collect::<Result<_, _>>()?;
+                &made
+            }
+        };
+        let load: Vec<_> = if self.problem.has_line_load() {
+            places.map(|s| self.problem.line_load(s)).collect()
+        } else {
+            Vec::new()
+        };
+        let span = Span { gauss, length, responses, offset: &[], load: &load };
+        let entry = Entry { rotation: at.rotation, force: at.force, moment: at.moment() };
+        let mut strains = [Strain::zeros(); MAX_DEGREE];
+        for (strain, &c) in strains.iter_mut().zip(&gauss.nodes) {
+            *strain = guess(c);
+        }
+        let first = strains;
+        let strains = &mut strains[..degree];
+        let mut solved = false;
+        let mut before = f64::INFINITY;
+        if solve {
+            for _ in 0..ITERATIONS {
+                let exit = self.stages.evaluate(&span, &entry, strains);
+                self.stages.linearise(&span, &exit, strains, &mut self.eliminated);
+                let mut changes = [Strain::zeros(); MAX_DEGREE];
+                self.eliminated.solve(&self.stages.residual, &mut changes[..degree]);
+                let size = changes[..degree].iter().map(|e| e.amax()).fold(0.0, f64::max);
+                if !(size < before.max(1e-10)) {
+                    break;
+                }
+                for (strain, change) in strains.iter_mut().zip(&changes) {
+                    *strain += change;
+                }
+                let scale = strains.iter().map(|e| e.amax()).fold(0.0, f64::max);
+                // Quadratic: the next change would be of the square of this one.
+                if size <= 1e-9 * scale || size < 1e-15 {
+                    solved = true;
+                    break;
+                }
+                before = size;
+            }
+            if !solved {
+                strains.copy_from_slice(&first[..degree]);
+            }
+        }
+        let exit = self.stages.evaluate(&span, &entry, strains);
+        Ok((left(at, &exit), solved))
+    }
+}
+
+/// The state where an element ends, before any point load.
+#[must_use]
+pub fn left(at: &At, exit: &Exit) -> At {
+    let position: Vector3<f64> = at.position + exit.arm;
+    At {
+        position,
+        rotation: exit.rotation,
+        force: at.force - exit.force_drop,
+        about_origin: at.about_origin - at.position.cross(&exit.force_drop) - exit.lever - exit.couple_drop,
+    }
+}
+
+/// The strains at which the law gives the resultants, from a guess; the guess itself where that fails.
+#[must_use]
+pub fn pointwise(response: &Response<'_>, resultants: &Strain, guess: Strain) -> Strain {
+    let mut strain = guess;
+    let mut before = f64::INFINITY;
+    for _ in 0..20 {
+        let (value, tangent) = response.value(&strain);
+        let residual = value - response.compliance.component_mul(resultants);
+        let Some(change) = tangent.lu().solve(&residual) else { return guess };
+        let size = change.amax();
+        if !(size < before) {
+            // Rounding, unless it never came close.
+            return if before < 1e-8 { strain } else { guess };
+        }
+        strain -= change;
+        if size <= 1e-15 * strain.amax() {
+            return strain;
+        }
+        before = size;
+    }
+    strain
+}

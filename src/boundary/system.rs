@@ -1,0 +1,581 @@
+//! The discrete equations: residual, Jacobian and corrections.
+//!
+//! With the strains eliminated ([`super::element`]) an element says how its end follows from its start: with `L`, `f`
+//! and `g` the units of length, force and moment, `u_N = f nu - phi x N`, `u_M = dM - phi x M`, `u_p = phi` and the
+//! flexibility `E`,
+//!
+//! ```text
+//!                 rho_i                phi_i                      nu                      gamma
+//! rho_{i+1} = [ I + E_rM L [N x]/L   (-[arm x] + Q_r)/L   f (E_rN - E_rM [r x])/L   g E_rM/L ]
+//! phi_{i+1} = [ T E_fM L [N x]       T (I + Q_f)          f T (E_fN - E_fM [r x])   g T E_fM ]
+//! gamma_{i+1} = [ (L/g)([D x] - E_lM [N x])   ([lever x] - Q_l)/g   -(f/g)(E_lN - E_lM [r x])   I - E_lM ]
+//! ```
+//!
+//! with `Q_. = E_.N [N x] + E_.M [M x] + E_.p`, `D` the force distributed over the element, and `T` the rotation that is
+//! left between the end of the element and the next node. These are the blocks of [`Chain`].
+
+use nalgebra::{Matrix3, Quaternion, SMatrix, Vector3};
+
+use super::chain::Chain;
+use super::element::{Change, Eliminated, Entry, Exit, Span, Stages};
+use super::ends::{Condition, End, Units, conditions, half_angle};
+use super::iterate::{Correction, Iterate, Layout};
+use super::mesh::Mesh;
+use crate::InvalidInput;
+use crate::section::Strain;
+
+type Vector = Vector3<f64>;
+type Rows = SMatrix<f64, 9, 12>;
+
+/// What is asked of the ribbon on the way to a solution.
+#[derive(Clone, Debug)]
+pub struct Targets {
+    /// The ends.
+    pub ends: [End; 2],
+    /// Factor of point and line loads.
+    pub load: f64,
+    /// By what the law is violated at each stage; empty at the goal.
+    pub offset: Vec<Strain>,
+}
+
+/// The equations on a mesh, with room for their factors.
+pub struct System<'m, 'p> {
+    /// The mesh.
+    pub mesh: &'m Mesh<'p>,
+    /// Units of the unknowns.
+    pub units: Units,
+    layout: Layout,
+    stages: Box<Stages>,
+    elements: Vec<Eliminated>,
+    anchors: Vec<Anchor>,
+    chain: Chain,
+    residual: Residual,
+    load: Vec<(Vector, Vector)>,
+    /// How often the Jacobian was factorised.
+    pub factorisations: usize,
+}
+
+/// Where an element was linearised.
+#[derive(Clone, Copy, Debug)]
+struct Anchor {
+    position: Vector,
+    force: Vector,
+    moment: Vector,
+    turn: Matrix3<f64>,
+}
+
+/// The residual: of the law at the stages, of continuity, and minus that of the end conditions.
+#[derive(Clone, Debug, Default)]
+struct Residual {
+    strains: Vec<Strain>,
+    gaps: Vec<[f64; 9]>,
+    start: [f64; 6],
+    end: [f64; 6],
+}
+
+/// Relative pivots below this are singular.
+const SINGULAR: f64 = 1e-15;
+
+/// Why the equations cannot be solved where they are.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Failure {
+    /// A zero pivot.
+    #[error("the equations are singular {0}")]
+    Singular(String),
+    /// Not a number, or infinite.
+    #[error("a number is not finite {0}")]
+    NotFinite(String),
+    /// A section that is refused.
+    #[error(transparent)]
+    Refused(#[from] InvalidInput),
+}
+
+impl<'m, 'p> System<'m, 'p> {
+    /// The equations with the states that their loads need.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    pub fn new(mesh: &'m Mesh<'p>) -> Result<Self, InvalidInput> {
+        let layout = if mesh.problem.has_line_force() { Layout::Moment } else { Layout::Constant };
+        Self::with_layout(mesh, layout)
+    }
+
+    /// The equations with these states, at least those that the loads need.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    pub fn with_layout(mesh: &'m Mesh<'p>, layout: Layout) -> Result<Self, InvalidInput> {
+        let chain = Chain::new(layout.states().len(), layout.constants().len());
+        Ok(Self {
+            mesh,
+            units: mesh.problem.units()?,
+            layout,
+            stages: Box::default(),
+            elements: vec![Eliminated::default(); mesh.elements()],
+            anchors: Vec::with_capacity(mesh.elements()),
+            chain,
+            residual: Residual::default(),
+            load: Vec::new(),
+            factorisations: 0,
+        })
+    }
+
+    /// Evaluates the residual at `x`.
+    ///
+    /// # Errors
+    /// A residual that is not finite, a section that is refused.
+    pub fn evaluate(&mut self, x: &Iterate, targets: &Targets) -> Result<(), Failure> {
+        self.pass(x, targets, false)
+    }
+
+    /// Evaluates the residual and factorises the Jacobian at `x`.
+    ///
+    /// # Errors
+    /// A singular Jacobian, a residual that is not finite, a section that is refused.
+    pub fn linearise(&mut self, x: &Iterate, targets: &Targets) -> Result<(), Failure> {
+        self.factorisations += 1;
+        self.pass(x, targets, true)
+    }
+
+    fn pass(&mut self, x: &Iterate, targets: &Targets, linearise: bool) -> Result<(), Failure> {
+        let count = self.mesh.elements();
+        self.residual.gaps.clear();
+        self.residual.strains.clear();
+        let [start, end] = [0, 1].map(|i| {
+            let outward = if i == 0 { -1.0 } else { 1.0 };
+            conditions(&targets.ends[i], &x.nodes[i * count], outward, &self.units)
+        });
+        self.residual.start = start.map(|(_, rhs)| rhs);
+        self.residual.end = end.map(|(_, rhs)| rhs);
+        if linearise {
+            self.anchors.clear();
+            self.chain.start(&self.placed(&start));
+        }
+        for i in 0..count {
+            let exit = self.enter(x, targets, i, linearise)?;
+            self.join(x, targets, i, &exit, linearise);
+        }
+        let finite = self.residual.gaps.iter().flatten().all(|g| g.is_finite())
+            && self.residual.strains.iter().all(|e| e.iter().all(|x| x.is_finite()));
+        if !finite {
+            return Err(Failure::NotFinite("in the residual".to_owned()));
+        }
+        if linearise {
+            let truncate = self.mesh.problem.glides() && !is_uniform(&x.strains);
+            self.chain.finish(&self.placed(&end), truncate);
+            if !(self.chain.pivot() > SINGULAR) {
+                return Err(Failure::Singular("in the conditions that join the elements".to_owned()));
+            }
+        }
+        Ok(())
+    }
+
+    /// The stages of an element: their residual and, if asked, the elimination of its strains.
+    fn enter(&mut self, x: &Iterate, targets: &Targets, i: usize, linearise: bool) -> Result<Exit, Failure> {
+        let (mesh, s) = (self.mesh, self.mesh.gauss.degree);
+        let at = &x.nodes[i];
+        let mut made = Vec::new();
+        let responses = mesh.responses(i, &mut made)?;
+        let stages = i * s..(i + 1) * s;
+        let mut load = mesh.load(i);
+        if targets.load != 1.0 {
+            let factor = targets.load;
+            self.load.clear();
+            self.load.extend(load.iter().map(|(p, c)| (factor * p, factor * c)));
+            load = &self.load;
+        }
+        let span = Span {
+            gauss: mesh.gauss,
+            length: mesh.length(i),
+            responses,
+            offset: targets.offset.get(stages.clone()).unwrap_or(&[]),
+            load,
+        };
+        let entry = Entry { rotation: at.rotation, force: at.force, moment: at.moment() };
+        let strains = &x.strains[stages];
+        let exit = self.stages.evaluate(&span, &entry, strains);
+        self.residual.strains.extend_from_slice(&self.stages.residual[..s]);
+        if linearise {
+            let element = &mut self.elements[i];
+            self.stages.linearise(&span, &exit, strains, element);
+            if !(element.pivot > SINGULAR) {
+                return Err(Failure::Singular(format!("at S = {:.6}", mesh.nodes[i])));
+            }
+        }
+        Ok(exit)
+    }
+
+    /// The continuity of an element with the next node.
+    fn join(&mut self, x: &Iterate, targets: &Targets, i: usize, exit: &Exit, linearise: bool) {
+        let (at, next) = (&x.nodes[i], &x.nodes[i + 1]);
+        let Units { length, force: unit_force, moment: unit_moment } = self.units;
+        let point = self.mesh.points[i + 1].map(|(f, m)| (targets.load * f, targets.load * m));
+        let (jump, couple) = point.unwrap_or((Vector::zeros(), Vector::zeros()));
+        let left_over = exit.rotation * next.rotation.conjugate();
+        let half = half_angle(&left_over);
+        let position = (at.position + exit.arm - next.position) / length;
+        let about_origin =
+            at.about_origin - at.position.cross(&exit.force_drop) - exit.lever - exit.couple_drop;
+        let about_origin =
+            (about_origin - next.position.cross(&jump) - couple - next.about_origin) / unit_moment;
+        let mut gap = [0.0; 9];
+        gap[..3].copy_from_slice(position.as_slice());
+        gap[3..6].copy_from_slice((2.0 * half).as_slice());
+        gap[6..].copy_from_slice(about_origin.as_slice());
+        self.residual.gaps.push(gap);
+        if !linearise {
+            return;
+        }
+        let anchor =
+            Anchor { position: at.position, force: at.force, moment: at.moment(), turn: cayley(&left_over) };
+        self.anchors.push(anchor);
+        let rows = transfer(&self.elements[i], &anchor, exit, &self.units);
+        let (states, constants) = (self.layout.states(), self.layout.constants());
+        let n = states.len();
+        let (mut a, mut b, mut j) = (Vec::with_capacity(n * n), Vec::new(), vec![0.0; n * n]);
+        for (row, &state) in states.iter().enumerate() {
+            let entry = |column: usize| match state {
+                0..6 => rows[(state, column)],
+                6..9 => f64::from(u8::from(column == state)),
+                _ => rows[(state - 3, column)],
+            };
+            a.extend(states.iter().map(|&column| entry(column)));
+            b.extend(constants.iter().map(|&column| entry(column)));
+            j[row * n + row] = 1.0;
+        }
+        // M + r x N jumps by what a point force turns with: -r x F.
+        let turning = -jump.cross_matrix() * (length / unit_moment);
+        if point.is_some() && self.layout != Layout::Constant {
+            for (row, column) in (0..3).flat_map(|row| (0..3).map(move |column| (row, column))) {
+                j[(6 + row) * n + column] = turning[(row, column)];
+            }
+        }
+        self.chain.push(&a, &j, &b);
+        if point.is_some() && self.layout == Layout::Constant {
+            let mut k = vec![0.0; 6 * n];
+            for (row, column) in (0..3).flat_map(|row| (0..3).map(move |column| (row, column))) {
+                k[(3 + row) * n + column] = turning[(row, column)];
+            }
+            self.chain.jump(k);
+        }
+        debug_assert!(unit_force > 0.0);
+    }
+
+    /// The columns of conditions, states first.
+    fn placed(&self, conditions: &[Condition; 6]) -> Vec<f64> {
+        let columns = || self.layout.states().iter().chain(self.layout.constants());
+        conditions.iter().flat_map(|(row, _)| columns().map(|&column| row[column])).collect()
+    }
+
+    /// The Newton correction for the residual last evaluated, by the factors last computed.
+    #[must_use]
+    pub fn correction(&self) -> Correction {
+        let (states, constants) = (self.layout.states(), self.layout.constants());
+        let (n, s) = (states.len(), self.mesh.gauss.degree);
+        let count = self.mesh.elements();
+        let mut strains = vec![Strain::zeros(); self.mesh.stages()];
+        let mut rhs = Vec::with_capacity(n * count);
+        for i in 0..count {
+            let own = i * s..(i + 1) * s;
+            let change = self.elements[i].solve(&self.residual.strains[own.clone()], &mut strains[own]);
+            let full = joined(&self.residual.gaps[i], &change, &self.anchors[i].turn, &self.units);
+            rhs.extend(states.iter().map(|&state| match state {
+                0..6 => full[state],
+                6..9 => 0.0,
+                _ => full[state - 3],
+            }));
+        }
+        let changes = self.chain.solve(&self.residual.start, &rhs, &self.residual.end);
+        let m = constants.len();
+        let node = |i: usize| {
+            let mut change = [0.0; 12];
+            for (&place, value) in states.iter().zip(&changes.states[i * n..]) {
+                change[place] = *value;
+            }
+            for (&place, value) in constants.iter().zip(&changes.constants[i * m..]) {
+                change[place] = *value;
+            }
+            change
+        };
+        let nodes: Vec<[f64; 12]> = (0..=count).map(node).collect();
+        for i in 0..count {
+            let inputs = self.anchors[i].inputs(&nodes[i], &self.units);
+            self.elements[i].respond(&inputs, &mut strains[i * s..(i + 1) * s]);
+        }
+        Correction { nodes, strains }
+    }
+
+    /// The correction that gives each element another end: what its position, rotation and moment about the origin
+    /// are to change by, other residuals being zero.
+    #[must_use]
+    pub fn correction_for(&mut self, defects: Vec<[f64; 9]>) -> Correction {
+        self.residual.strains.iter_mut().for_each(|e| *e = Strain::zeros());
+        self.residual.gaps = defects;
+        (self.residual.start, self.residual.end) = ([0.0; 6], [0.0; 6]);
+        self.correction()
+    }
+
+    /// Condition number of what is left when all nodes but the last are eliminated.
+    #[must_use]
+    pub fn condition(&self) -> f64 {
+        self.chain.condition()
+    }
+
+    /// By what the law is violated at each stage, as last evaluated.
+    #[must_use]
+    pub fn law_residual(&self) -> &[Strain] {
+        &self.residual.strains
+    }
+
+    /// Makes the constants of an iterate follow their values at the start: they jump at point loads and, if
+    /// nothing else is distributed, by distributed couples.
+    pub fn settle(&self, x: &mut Iterate, load: f64) {
+        if self.layout == Layout::Full {
+            return;
+        }
+        let weights = &self.mesh.gauss.weights;
+        for i in 0..self.mesh.elements() {
+            let (mut force, mut about_origin) = (x.nodes[i].force, x.nodes[i].about_origin);
+            let h = self.mesh.length(i) * load;
+            for ((p, c), weight) in self.mesh.load(i).iter().zip(weights) {
+                force -= h * weight * p;
+                about_origin -= h * weight * c;
+            }
+            let next = &mut x.nodes[i + 1];
+            if let Some((f, m)) = self.mesh.points[i + 1] {
+                force -= load * f;
+                about_origin -= load * (next.position.cross(&f) + m);
+            }
+            next.force = force;
+            if self.layout == Layout::Constant {
+                next.about_origin = about_origin;
+            }
+        }
+    }
+}
+
+impl Anchor {
+    /// The inputs of an element from the change at its start.
+    fn inputs(&self, change: &[f64; 12], units: &Units) -> [f64; 9] {
+        let vector = |i| Vector::new(change[i], change[i + 1], change[i + 2]);
+        let (shift, turn) = (units.length * vector(0), vector(3));
+        let (force, about_origin) = (units.force * vector(6), units.moment * vector(9));
+        let moment = about_origin - shift.cross(&self.force) - self.position.cross(&force);
+        let (force, moment) = (force - turn.cross(&self.force), moment - turn.cross(&self.moment));
+        [force, moment, turn].map(|v| [v.x, v.y, v.z]).concat().try_into().unwrap_or([f64::NAN; 9])
+    }
+}
+
+/// The matrix of the module's header.
+fn transfer(element: &Eliminated, anchor: &Anchor, exit: &Exit, units: &Units) -> Rows {
+    let Units { length, force, moment } = *units;
+    let (n, m) = (anchor.force.cross_matrix(), anchor.moment.cross_matrix());
+    let r = anchor.position.cross_matrix();
+    let mut rows = Rows::zeros();
+    let outputs = if element.loaded() { 3 } else { 2 };
+    for output in 0..outputs {
+        let by_force = element.flexibility_block(output, 0);
+        let by_moment = element.flexibility_block(output, 1);
+        let mut by_turn = by_force * n + by_moment * m;
+        if element.loaded() {
+            by_turn += element.flexibility_block(output, 2);
+        }
+        let mut blocks =
+            [by_moment * n * length, by_turn, (by_force - by_moment * r) * force, by_moment * moment];
+        for block in &mut blocks {
+            match output {
+                0 => *block /= length,
+                1 => *block = anchor.turn * *block,
+                _ => *block /= -moment,
+            }
+        }
+        for (i, block) in blocks.iter().enumerate() {
+            rows.fixed_view_mut::<3, 3>(3 * output, 3 * i).copy_from(block);
+        }
+    }
+    let mut add = |output: usize, input: usize, block: Matrix3<f64>| {
+        let mut view = rows.fixed_view_mut::<3, 3>(3 * output, 3 * input);
+        view += block;
+    };
+    add(0, 0, Matrix3::identity());
+    add(0, 1, -exit.arm.cross_matrix() / length);
+    add(1, 1, anchor.turn);
+    add(2, 0, exit.force_drop.cross_matrix() * (length / moment));
+    add(2, 1, exit.lever.cross_matrix() / moment);
+    add(2, 3, Matrix3::identity());
+    rows
+}
+
+/// A gap and what eliminating the strains adds to it.
+fn joined(gap: &[f64; 9], change: &Change, turn: &Matrix3<f64>, units: &Units) -> [f64; 9] {
+    let (arm, rotation) = (change.arm / units.length, turn * change.rotation);
+    let lever = change.lever / units.moment;
+    std::array::from_fn(|i| match i {
+        0..3 => gap[i] + arm[i],
+        3..6 => gap[i] + rotation[i - 3],
+        _ => gap[i] - lever[i - 6],
+    })
+}
+
+/// `(I + t x)^-1 (I - t x)` with `t` the half angle: the rotation back by `w`.
+fn cayley(w: &Quaternion<f64>) -> Matrix3<f64> {
+    let t = half_angle(w);
+    let x = t.cross_matrix();
+    let scale = 2.0 / (1.0 + t.norm_squared());
+    Matrix3::identity() + (x * x - x) * scale
+}
+
+/// Whether no curvature differs from their mean by more than a thousandth of the largest.
+fn is_uniform(strains: &[Strain]) -> bool {
+    let mean: Strain = strains.iter().sum::<Strain>() / strains.len() as f64;
+    let spread = strains.iter().map(|e| (e - mean).rows(1, 3).amax()).fold(0.0, f64::max);
+    let largest = strains.iter().map(|e| e.rows(1, 3).amax()).fold(0.0, f64::max);
+    spread <= 1e-3 * largest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::boundary::ends::Hold;
+    use crate::boundary::iterate::at_rest;
+    use crate::boundary::law::Law;
+    use crate::boundary::problem::{LineLoad, PointLoad, Problem};
+    use crate::growth::Growth;
+    use crate::material::PlaneStress;
+    use crate::section::{Amplitude, Form, RibbonLaw, RibbonSpec};
+
+    /// Reproducible numbers in [-1, 1].
+    struct Numbers(u64);
+
+    impl Numbers {
+        fn next(&mut self) -> f64 {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        }
+
+        fn vector(&mut self, size: f64) -> Vector {
+            Vector::from_fn(|_, _| size * self.next())
+        }
+
+        fn rotation(&mut self) -> Quaternion<f64> {
+            // Near the identity, so that none is a half turn from another.
+            let random = Quaternion::new(self.next(), self.next(), self.next(), self.next()).normalize();
+            (random * 0.2 + Quaternion::new(1.0, 0.0, 0.0, 0.0)).normalize()
+        }
+    }
+
+    /// A problem with every kind of load and these ends.
+    fn problem(holds: [Hold; 2], force: bool, numbers: &mut Numbers) -> Problem {
+        let law = RibbonLaw::new(RibbonSpec {
+            eta: 0.1,
+            stiffness: PlaneStress::incompressible(),
+            form: Form::Auto,
+            growth: vec![(Amplitude::Constant(1.0), Growth::edge(0.06) + Growth::chiral(0.04))],
+            width: Amplitude::Constant(1.0),
+            thickness: Amplitude::Constant(1.0),
+        });
+        let ends = holds.map(|hold| End {
+            hold,
+            position: numbers.vector(1.0),
+            rotation: numbers.rotation(),
+            turns: 0.3,
+            force: numbers.vector(1e-4),
+            moment: numbers.vector(1e-4),
+        });
+        let mut load = |size: f64| {
+            std::array::from_fn(|_| Amplitude::Constant(if size > 0.0 { size * numbers.next() } else { 0.0 }))
+        };
+        let line = LineLoad { force: load(if force { 1e-4 } else { 0.0 }), moment: load(1e-4) };
+        let points = [2.0, 2.0, 5.0].map(|s| PointLoad {
+            s,
+            force: numbers.vector(1e-4),
+            moment: numbers.vector(1e-4),
+        });
+        Problem::new(Law::Relaxed(law.unwrap()), 7.0, ends, points.to_vec(), line).unwrap()
+    }
+
+    fn iterate(mesh: &Mesh<'_>, numbers: &mut Numbers) -> Iterate {
+        let mut node = |&s: &f64| {
+            let mut at = at_rest(Vector::new(0.0, 0.0, s) + numbers.vector(0.2), numbers.rotation());
+            (at.force, at.about_origin) = (numbers.vector(1e-3), numbers.vector(1e-3));
+            at
+        };
+        let nodes = mesh.nodes.iter().map(&mut node).collect();
+        let strains = (0..mesh.stages()).map(|_| Strain::from_fn(|_, _| 0.1 * numbers.next())).collect();
+        Iterate { nodes, strains }
+    }
+
+    /// Every residual, none multiplied by a matrix that changes: of rotations the vector part of the quaternion.
+    fn all(residual: &Residual, holds: [Hold; 2]) -> Vec<f64> {
+        let sine = |half: [f64; 3]| {
+            let half = Vector::from(half);
+            (half / (1.0 + 0.25 * half.norm_squared()).sqrt()).data.0[0]
+        };
+        let strains = residual.strains.iter().flat_map(|e| e.map(|x| -x).data.0[0]);
+        let gaps = residual.gaps.iter().flat_map(|gap| {
+            let mut gap = *gap;
+            let turn = sine([gap[3], gap[4], gap[5]]);
+            gap[3..6].copy_from_slice(&turn);
+            gap
+        });
+        let ends = holds.iter().zip([residual.start, residual.end]).flat_map(|(hold, mut end)| {
+            let first = match hold {
+                Hold::Clamped => 3,
+                Hold::Sliding(_) => 2,
+                _ => return end,
+            };
+            let turn = sine([end[first], end[first + 1], end[first + 2]]);
+            end[first..first + 3].copy_from_slice(&turn);
+            end
+        });
+        strains.chain(gaps).chain(ends).collect()
+    }
+
+    /// Along the Newton correction the residual changes by minus itself.
+    #[test]
+    fn the_jacobian_is_exact() {
+        let mut numbers = Numbers(1);
+        let sliding = Hold::Sliding(Vector::new(0.6, 0.0, 0.8));
+        for (holds, force, layouts) in [
+            ([Hold::Clamped, Hold::Free], false, vec![Layout::Constant, Layout::Moment]),
+            ([Hold::Free, Hold::Hinged(1)], true, vec![Layout::Moment]),
+            ([Hold::Pinned, sliding], true, vec![Layout::Moment]),
+            ([Hold::Hinged(0), Hold::Clamped], false, vec![Layout::Constant, Layout::Moment]),
+        ] {
+            let problem = problem(holds, force, &mut numbers);
+            for layout in layouts {
+                for degree in [1, 2, 4] {
+                    let nodes = vec![0.0, 1.0, 2.0, 3.5, 5.0, 7.0];
+                    let mesh = Mesh::new(&problem, nodes, degree).unwrap();
+                    let mut system = System::with_layout(&mesh, layout).unwrap();
+                    let mut x = iterate(&mesh, &mut numbers);
+                    let targets = Targets {
+                        ends: [0, 1].map(|i| problem.goal(&problem.ends[i])),
+                        load: 0.7,
+                        offset: vec![Strain::repeat(0.01); mesh.stages()],
+                    };
+                    system.settle(&mut x, targets.load);
+                    system.linearise(&x, &targets).unwrap();
+                    let (here, correction) = (all(&system.residual, holds), system.correction());
+                    let mut at = |fraction: f64| {
+                        let mut moved = x.moved(&correction, fraction, &system.units);
+                        system.settle(&mut moved, targets.load);
+                        system.evaluate(&moved, &targets).unwrap();
+                        all(&system.residual, holds)
+                    };
+                    let step = 1e-5 / correction.norm(&mesh);
+                    let (ahead, behind) = (at(step), at(-step));
+                    let size = here.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
+                    for ((f, a), b) in here.iter().zip(&ahead).zip(&behind) {
+                        let slope = (a - b) / (2.0 * step);
+                        // Central differences: of the order of the step squared and of rounding over the step.
+                        assert!(
+                            (slope + f).abs() < 1e-6 * size,
+                            "{holds:?} {layout:?} {degree}: {slope} {f}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}

@@ -3,6 +3,7 @@
 //! Checks of what a user writes, names and units are the Python package's; here only what could make
 //! the core panic or mislead is refused, as `ValueError`.
 
+mod boundary;
 mod branch;
 mod frame;
 mod section;
@@ -30,12 +31,23 @@ fn strains_from(array: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Strain>> {
     Ok(array.rows().into_iter().map(|r| Strain::new(r[0], r[1], r[2], r[3])).collect())
 }
 
+/// Rows of an `(m, N)` array.
+fn rows_from<const N: usize>(field: &str, array: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<[f64; N]>> {
+    let array = array.as_array();
+    if array.ncols() != N {
+        return Err(PyValueError::new_err(format!("{field} has {} columns: expected {N}", array.ncols())));
+    }
+    Ok(array.rows().into_iter().map(|row| std::array::from_fn(|i| row[i])).collect())
+}
+
 /// Numerical core of ribbonrs.
 #[pymodule]
 mod _core {
     use numpy::PyArray1;
     use pyo3::prelude::*;
 
+    #[pymodule_export]
+    use super::boundary::{BoundaryProblem, BoundarySolution, LinearLaw};
     #[pymodule_export]
     use super::branch::NaturalBranch;
     #[pymodule_export]

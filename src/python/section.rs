@@ -26,13 +26,13 @@ pub struct SectionLaw {
 
 /// A number, or breaks and the Legendre coefficients of the pieces between them.
 #[derive(FromPyObject)]
-enum Along {
+pub enum Along {
     Constant(f64),
     Pieces(Vec<f64>, Vec<Vec<f64>>),
 }
 
 impl Along {
-    fn amplitude(self) -> Result<Amplitude, InvalidInput> {
+    pub fn amplitude(self) -> Result<Amplitude, InvalidInput> {
         Ok(match self {
             Self::Constant(value) => Amplitude::Constant(value),
             Self::Pieces(breaks, pieces) => Amplitude::Along(Piecewise::from_legendre(breaks, pieces)?),
@@ -53,6 +53,11 @@ type Term = (Along, HashMap<String, Across>);
 const ROWS: [usize; 2] = [4096, 32];
 
 impl SectionLaw {
+    /// The law in the core.
+    pub fn law(&self) -> &RibbonLaw {
+        &self.law
+    }
+
     /// `N` numbers for each of the strains (m, 4), at `S` (m,) if the ribbon varies; on all cores if many.
     fn rows<const N: usize>(
         &self,

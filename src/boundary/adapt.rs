@@ -147,5 +147,5 @@ pub fn transferred(x: &Iterate, from: &Mesh<'_>, to: &Mesh<'_>) -> Result<Iterat
         let i = element(s);
         x.strain(from, i, (s - from.nodes[i]) / from.length(i))
     });
-    Ok(Iterate { strains: strains.collect(), nodes })
+    Ok(Iterate { strains: strains.collect(), nodes, slack: 0.0 })
 }

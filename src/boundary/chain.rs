@@ -18,9 +18,12 @@
 //!
 //! Where a point load makes the constants jump, `p_left = p_right + K x_i` is substituted.
 
-use nalgebra::{DMatrix, DVector, Dyn, SVD};
+use nalgebra::DMatrix;
 
 use super::dense::{backward, eliminate, forward};
+
+/// A smallest singular value below this part of the next is that of gliding.
+const GLIDING: f64 = 1e-2;
 
 /// Conditions at the start of the chain, and rows that are carried along.
 pub const CARRIED: usize = 6;
@@ -38,16 +41,22 @@ pub struct Chain {
     pivot: f64,
 }
 
-/// The conditions at the end: the last panel.
-#[derive(Clone, Debug)]
-enum Last {
-    Open,
-    Factors {
-        block: Vec<f64>,
-        swaps: Vec<usize>,
-    },
-    /// Without its smallest singular value: the least change that does all the others ask.
-    Truncated(Box<SVD<f64, Dyn, Dyn>>),
+/// The conditions at the end: the last panel, factorised.
+#[derive(Clone, Debug, Default)]
+struct Last {
+    size: usize,
+    block: Vec<f64>,
+    swaps: Vec<usize>,
+}
+
+/// A column and a row that border the last panel where the ribbon may glide along itself: the conditions at the end
+/// that follow from the others, and the change of the last node and the constants that they leave open.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Border {
+    /// How the slack enters the conditions at the end.
+    pub slack: Vec<f64>,
+    /// Change that is not made.
+    pub phase: Vec<f64>,
 }
 
 /// Changes of the states `x_i` at the nodes, and of the constants in force to the right of each node.
@@ -57,6 +66,8 @@ pub struct Changes {
     pub states: Vec<f64>,
     /// `m` numbers a node.
     pub constants: Vec<f64>,
+    /// Of the slack, if there is a border.
+    pub slack: f64,
 }
 
 impl Chain {
@@ -65,7 +76,7 @@ impl Chain {
     pub fn new(n: usize, m: usize) -> Self {
         let carried = Vec::new();
         let (panels, swaps, jumps) = (Vec::new(), Vec::new(), Vec::new());
-        Self { n, m, panels, swaps, jumps, last: Last::Open, carried, pivot: f64::INFINITY }
+        Self { n, m, panels, swaps, jumps, last: Last::default(), carried, pivot: f64::INFINITY }
     }
 
     fn stride(&self) -> usize {
@@ -88,7 +99,7 @@ impl Chain {
         self.swaps.clear();
         self.jumps.clear();
         self.pivot = f64::INFINITY;
-        self.last = Last::Open;
+        self.last = Last::default();
         self.carried.clear();
         self.carried.extend_from_slice(conditions);
     }
@@ -136,24 +147,48 @@ impl Chain {
         self.jumps.push((self.elements(), k));
     }
 
-    /// Ends with the conditions at the end, `(n + m - 6) x (n + m)`; `truncate` leaves out the least singular value.
-    pub fn finish(&mut self, conditions: &[f64], truncate: bool) {
-        let size = self.n + self.m;
-        let mut block = self.carried.clone();
-        block.extend_from_slice(conditions);
-        if truncate {
-            let matrix = DMatrix::from_row_slice(size, size, &block);
-            let finite = block.iter().all(|x| x.is_finite());
-            self.pivot = if finite { self.pivot } else { f64::NAN };
-            if finite {
-                self.last = Last::Truncated(Box::new(matrix.svd(true, true)));
+    /// Ends with the conditions at the end, `(n + m - 6) x (n + m)`.
+    pub fn finish(&mut self, conditions: &[f64], border: Option<&Border>) {
+        let inner = self.n + self.m;
+        let size = inner + usize::from(border.is_some());
+        let mut block = Vec::with_capacity(size * size);
+        let rows = self.carried.chunks_exact(inner).chain(conditions.chunks_exact(inner));
+        for (i, row) in rows.enumerate() {
+            block.extend_from_slice(row);
+            if let Some(border) = border {
+                block.push(if i < CARRIED { 0.0 } else { border.slack[i - CARRIED] });
             }
-            return;
+        }
+        if let Some(border) = border {
+            block.extend_from_slice(&border.phase);
+            block.push(0.0);
         }
         let mut swaps = vec![0; size];
         let pivot = eliminate(&mut block, size, size, &mut swaps);
         self.pivot = if pivot >= self.pivot { self.pivot } else { pivot };
-        self.last = Last::Factors { block, swaps };
+        self.last = Last { size, block, swaps };
+    }
+
+    /// The border that the smallest singular value of the last panel asks for; `None` if it is not far below the others.
+    #[must_use]
+    pub fn border(&self, conditions: &[f64]) -> Option<Border> {
+        let size = self.n + self.m;
+        let block: Vec<f64> = self.carried.iter().chain(conditions).copied().collect();
+        if !block.iter().all(|x| x.is_finite()) {
+            return None;
+        }
+        let svd = DMatrix::from_row_slice(size, size, &block).svd(true, true);
+        let least = svd.singular_values.imin();
+        let value = svd.singular_values[least];
+        let next =
+            svd.singular_values.iter().filter(|&&other| other > value).fold(f64::INFINITY, |m, &x| m.min(x));
+        if value > GLIDING * next {
+            return None;
+        }
+        let slack: Vec<f64> = svd.u?.column(least).iter().skip(CARRIED).copied().collect();
+        let phase = svd.v_t?.row(least).iter().copied().collect();
+        let norm = slack.iter().map(|x| x * x).sum::<f64>().sqrt();
+        Some(Border { slack: slack.iter().map(|x| x / norm).collect(), phase })
     }
 
     /// The least relative pivot met: of the order of rounding, zero or NaN where the chain is singular.
@@ -165,36 +200,23 @@ impl Chain {
     /// Condition number, in the 1-norm, of what is left for the last node and the constants.
     #[must_use]
     pub fn condition(&self) -> f64 {
-        let size = self.n + self.m;
-        match &self.last {
-            Last::Open => f64::INFINITY,
-            Last::Truncated(svd) => {
-                let kept = &svd.singular_values;
-                kept.max() / kept.as_slice()[..size - 1].iter().copied().fold(f64::INFINITY, f64::min)
-            }
-            Last::Factors { block, swaps } => {
-                let mut inverse = 0.0_f64;
-                let mut norm = 0.0_f64;
-                for column in 0..size {
-                    let mut rhs = vec![0.0; size];
-                    rhs[column] = 1.0;
-                    forward(block, size, swaps, &mut rhs);
-                    backward(block, size, &mut rhs);
-                    inverse = inverse.max(rhs.iter().map(|x| x.abs()).sum());
-                    // The factors' product, column by column, is the block.
-                    let mut product = vec![0.0; size];
-                    for (row, value) in product.iter_mut().enumerate() {
-                        let terms = (0..=column.min(row)).map(|k| {
-                            let lower = if k == row { 1.0 } else { block[row * size + k] };
-                            lower * block[k * size + column]
-                        });
-                        *value = terms.sum();
-                    }
-                    norm = norm.max(product.iter().map(|x: &f64| x.abs()).sum());
-                }
-                norm * inverse
-            }
+        let Last { size, block, swaps } = &self.last;
+        let size = *size;
+        let (mut inverse, mut norm) = (0.0_f64, 0.0_f64);
+        for column in 0..size {
+            let mut rhs = vec![0.0; size];
+            rhs[column] = 1.0;
+            forward(block, size, swaps, &mut rhs);
+            backward(block, size, &mut rhs);
+            inverse = inverse.max(rhs.iter().map(|x| x.abs()).sum());
+            // The factors' product, column by column, is the panel.
+            let entry = |row: usize| {
+                let lower = |k: usize| if k == row { 1.0 } else { block[row * size + k] };
+                (0..=column.min(row)).map(|k| lower(k) * block[k * size + column]).sum::<f64>().abs()
+            };
+            norm = norm.max((0..size).map(entry).sum());
         }
+        norm * inverse
     }
 
     /// Solves for right-hand sides at the start (6), of the elements (`n` each) and at the end.
@@ -213,12 +235,16 @@ impl Chain {
             carried.copy_from_slice(&rhs[n..]);
         }
         carried.extend_from_slice(end);
-        self.solve_last(&mut carried);
+        let Last { size, block, swaps } = &self.last;
+        carried.resize(*size, 0.0);
+        forward(block, *size, swaps, &mut carried);
+        backward(block, *size, &mut carried);
+        let slack = if *size > n + m { carried[n + m] } else { 0.0 };
         let count = self.elements() + 1;
         let mut states = vec![0.0; n * count];
         let mut constants = vec![0.0; m * count];
         states[n * (count - 1)..].copy_from_slice(&carried[..n]);
-        constants[m * (count - 1)..].copy_from_slice(&carried[n..]);
+        constants[m * (count - 1)..].copy_from_slice(&carried[n..n + m]);
         let mut jumps = self.jumps.iter().rev().peekable();
         for i in (0..count - 1).rev() {
             let (head, next) = states.split_at_mut((i + 1) * n);
@@ -241,32 +267,14 @@ impl Chain {
             }
             backward(panel, stride, x);
         }
-        Changes { states, constants }
-    }
-
-    fn solve_last(&self, rhs: &mut Vec<f64>) {
-        let size = self.n + self.m;
-        match &self.last {
-            Last::Open => rhs.fill(f64::NAN),
-            Last::Factors { block, swaps } => {
-                forward(block, size, swaps, rhs);
-                backward(block, size, rhs);
-            }
-            Last::Truncated(svd) => {
-                let least = svd.singular_values.iter().copied().fold(f64::INFINITY, f64::min);
-                let solved = svd.solve(&DVector::from_column_slice(rhs), least);
-                match solved {
-                    Ok(x) => rhs.copy_from_slice(x.as_slice()),
-                    Err(_) => rhs.fill(f64::NAN),
-                }
-            }
-        }
+        Changes { states, constants, slack }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::DVector;
 
     /// Reproducible numbers in [-1, 1].
     fn numbers(count: usize, seed: u64) -> Vec<f64> {
@@ -311,7 +319,7 @@ mod tests {
             block += left;
             matrix.view_mut((size + 6 - n - m, count * n), (n + m - 6, n)).copy_from(&end.columns(0, n));
             matrix.view_mut((size + 6 - n - m, size - m), (n + m - 6, m)).copy_from(&end.columns(n, m));
-            chain.finish(&slice(&end), false);
+            chain.finish(&slice(&end), None);
             let rhs = numbers(size, 99);
             let split = 6 + count * n;
             let found = chain.solve(&rhs[..6], &rhs[6..split], &rhs[split..]);

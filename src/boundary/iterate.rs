@@ -57,6 +57,8 @@ pub struct Iterate {
     pub nodes: Vec<At>,
     /// At the stages, element by element.
     pub strains: Vec<Strain>,
+    /// By how much the end may miss where a condition follows from the others: zero but for the error of the mesh.
+    pub slack: f64,
 }
 
 /// A change of an [`Iterate`], in the units of the problem.
@@ -66,6 +68,8 @@ pub struct Correction {
     pub nodes: Vec<[f64; 12]>,
     /// Of the strains.
     pub strains: Vec<Strain>,
+    /// Of the slack.
+    pub slack: f64,
 }
 
 impl Iterate {
@@ -84,7 +88,8 @@ impl Iterate {
             }
         };
         let strains = self.strains.iter().zip(&by.strains).map(|(e, change)| e + fraction * change);
-        Self { nodes: self.nodes.iter().zip(&by.nodes).map(node).collect(), strains: strains.collect() }
+        let nodes = self.nodes.iter().zip(&by.nodes).map(node).collect();
+        Self { nodes, strains: strains.collect(), slack: self.slack + fraction * by.slack }
     }
 
     /// Strains at `x` in [0, 1] of an element, by the polynomial through its stages.

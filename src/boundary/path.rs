@@ -190,7 +190,7 @@ impl Path {
         let places = (0..mesh.elements()).flat_map(|i| mesh.places(i));
         let strains = places.map(flawed).collect();
         Ok(Self {
-            x: Iterate { nodes, strains },
+            x: Iterate { nodes, strains, slack: 0.0 },
             base: problem.ends,
             load: 0.0,
             offset: Vec::new(),
@@ -220,7 +220,7 @@ impl Path {
         };
         let nodes = mesh.nodes.iter().map(state).collect();
         let strains = (0..mesh.elements()).flat_map(|i| mesh.places(i)).map(strain).collect();
-        let x = Iterate { nodes, strains };
+        let x = Iterate { nodes, strains, slack: 0.0 };
         Self { x, base: mesh.problem.ends, load: 1.0, offset: Vec::new(), winds: false }
     }
 

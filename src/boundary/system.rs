@@ -16,7 +16,7 @@
 
 use nalgebra::{Matrix3, Quaternion, SMatrix, Vector3};
 
-use super::chain::Chain;
+use super::chain::{Border, Chain};
 use super::element::{Change, Eliminated, Entry, Exit, Span, Stages};
 use super::ends::{Condition, End, Units, conditions, half_angle};
 use super::iterate::{Correction, Iterate, Layout};
@@ -49,6 +49,7 @@ pub struct System<'m, 'p> {
     elements: Vec<Eliminated>,
     anchors: Vec<Anchor>,
     chain: Chain,
+    border: Option<Border>,
     residual: Residual,
     load: Vec<(Vector, Vector)>,
     /// How often the Jacobian was factorised.
@@ -114,6 +115,7 @@ impl<'m, 'p> System<'m, 'p> {
             elements: vec![Eliminated::default(); mesh.elements()],
             anchors: Vec::with_capacity(mesh.elements()),
             chain,
+            border: None,
             residual: Residual::default(),
             load: Vec::new(),
             factorisations: 0,
@@ -155,14 +157,23 @@ impl<'m, 'p> System<'m, 'p> {
             let exit = self.enter(x, targets, i, linearise)?;
             self.join(x, targets, i, &exit, linearise);
         }
+        if let Some(border) = &self.border {
+            self.residual.end.iter_mut().zip(&border.slack).for_each(|(rhs, w)| *rhs -= x.slack * w);
+        }
         let finite = self.residual.gaps.iter().flatten().all(|g| g.is_finite())
             && self.residual.strains.iter().all(|e| e.iter().all(|x| x.is_finite()));
         if !finite {
             return Err(Failure::NotFinite("in the residual".to_owned()));
         }
         if linearise {
-            let truncate = self.mesh.problem.glides() && !is_uniform(&x.strains);
-            self.chain.finish(&self.placed(&end), truncate);
+            let end = self.placed(&end);
+            // On the way what the law is violated by tells the places along the ribbon apart.
+            if !(targets.offset.is_empty() && self.mesh.problem.glides() && !is_uniform(&x.strains)) {
+                self.border = None;
+            } else if self.border.is_none() {
+                self.border = self.chain.border(&end);
+            }
+            self.chain.finish(&end, self.border.as_ref());
             if !(self.chain.pivot() > SINGULAR) {
                 return Err(Failure::Singular("in the conditions that join the elements".to_owned()));
             }
@@ -302,7 +313,7 @@ impl<'m, 'p> System<'m, 'p> {
             let inputs = self.anchors[i].inputs(&nodes[i], &self.units);
             self.elements[i].respond(&inputs, &mut strains[i * s..(i + 1) * s]);
         }
-        Correction { nodes, strains }
+        Correction { nodes, strains, slack: changes.slack }
     }
 
     /// The correction that gives each element another end: what its position, rotation and moment about the origin
@@ -502,7 +513,7 @@ mod tests {
         };
         let nodes = mesh.nodes.iter().map(&mut node).collect();
         let strains = (0..mesh.stages()).map(|_| Strain::from_fn(|_, _| 0.1 * numbers.next())).collect();
-        Iterate { nodes, strains }
+        Iterate { nodes, strains, slack: 0.0 }
     }
 
     /// Every residual, none multiplied by a matrix that changes: of rotations the vector part of the quaternion.

@@ -164,6 +164,7 @@ impl BoundaryProblem {
         let x = Iterate {
             nodes: states.into_iter().map(state).collect(),
             strains: strains.into_iter().map(Strain::from).collect(),
+            slack: 0.0,
         };
         let solution = Solution::from_parts(Arc::clone(&self.problem), degree, nodes, x, report)?;
         Ok(BoundarySolution { solution })

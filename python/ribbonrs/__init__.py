@@ -14,13 +14,15 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from . import growth
-from .ends import Clamped, Free
+from .ends import Clamped, Closed, Free, Hinged, Pinned, Sliding
 from .equilibrium import natural_shapes, solve
 from .errors import ConvergenceError, InputError, RibbonError, RibbonWarning
 from .frame import integrate_frame
 from .growth import Growth
 from .helix import Helix
 from .law import SectionLaw
+from .linear import LinearLaw
+from .loads import LineLoad, PointLoad, weight
 from .material import Isotropic, MooneyRivlin, Orthotropic
 from .ribbon import Ribbon
 from .scene import Scene
@@ -31,25 +33,33 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Clamped",
+    "Closed",
     "ConvergenceError",
     "Free",
     "Growth",
     "Helix",
+    "Hinged",
     "InputError",
     "Isotropic",
+    "LineLoad",
+    "LinearLaw",
     "MooneyRivlin",
     "Orthotropic",
+    "Pinned",
+    "PointLoad",
     "Ribbon",
     "RibbonError",
     "RibbonWarning",
     "Scene",
     "SectionLaw",
+    "Sliding",
     "State",
     "analytic",
     "growth",
     "integrate_frame",
     "natural_shapes",
     "solve",
+    "weight",
 ]
 
 

@@ -7,6 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "BoundaryProblem",
+    "BoundarySolution",
+    "LinearLaw",
     "NaturalBranch",
     "SectionLaw",
     "gauss_points",
@@ -21,6 +24,14 @@ _Array: TypeAlias = NDArray[np.float64]
 _Poses: TypeAlias = tuple[_Array, _Array]
 _Pieces: TypeAlias = tuple[list[float], list[list[float]]]
 _Shapes: TypeAlias = tuple[_Array, _Array, NDArray[np.int64], list[str], NDArray[np.bool_]]
+_Vec: TypeAlias = Sequence[float]
+_Along: TypeAlias = float | _Pieces
+_End: TypeAlias = tuple[str, _Vec, _Vec, float, _Vec, _Vec, _Vec]
+_State: TypeAlias = tuple[list[float], list[float], list[float], list[float]]
+_Parts: TypeAlias = tuple[
+    int, list[float], list[_State], list[list[float]], tuple[str, str], list[float], list[int], list[float]
+]
+_Guess: TypeAlias = tuple[_Array, _Array, _Array, _Array, _Array, _Array]
 
 @final
 class SectionLaw:
@@ -76,6 +87,74 @@ class NaturalBranch:
     def poses(
         self, S: _Array, position: Sequence[float] | _Array, quaternion: Sequence[float] | _Array
     ) -> _Poses: ...
+
+@final
+class LinearLaw:
+    """Forces and moments linear in the strains."""
+
+    def __new__(cls, compliance: _Vec, intrinsic: _Vec) -> LinearLaw: ...
+
+@final
+class BoundaryProblem:
+    """A ribbon that is loaded or held at its ends."""
+
+    def __new__(
+        cls,
+        law: SectionLaw | LinearLaw,
+        linear: bool,
+        length: float,
+        start: _End,
+        end: _End,
+        points: Sequence[tuple[float, _Vec, _Vec]],
+        force: Sequence[_Along],
+        moment: Sequence[_Along],
+    ) -> BoundaryProblem: ...
+    def solve(
+        self, tol: float, degree: int | None = None, guess: _Guess | None = None
+    ) -> BoundarySolution: ...
+    def restored(self, parts: _Parts) -> BoundarySolution: ...
+
+@final
+class BoundarySolution:
+    """An equilibrium of a boundary-value problem, or how far the solver came."""
+
+    @property
+    def status(self) -> str: ...
+    @property
+    def reason(self) -> str: ...
+    @property
+    def converged(self) -> bool: ...
+    @property
+    def fraction(self) -> float: ...
+    @property
+    def breaks(self) -> _Array: ...
+    @property
+    def degree(self) -> int: ...
+    @property
+    def energy(self) -> float: ...
+    @property
+    def load_potential(self) -> float: ...
+    @property
+    def section_index(self) -> int: ...
+    @property
+    def error(self) -> float: ...
+    @property
+    def residual(self) -> float: ...
+    @property
+    def condition(self) -> float: ...
+    @property
+    def iterations(self) -> int: ...
+    @property
+    def factorisations(self) -> int: ...
+    @property
+    def meshes(self) -> int: ...
+    @property
+    def load_steps(self) -> int: ...
+    @property
+    def residuals(self) -> list[float]: ...
+    def at(self, S: _Array) -> tuple[_Array, _Array, _Array, _Array, _Array]: ...
+    def reactions(self) -> list[_Array]: ...
+    def parts(self) -> _Parts: ...
 
 def natural_shapes_of(laws: Sequence[SectionLaw]) -> list[_Shapes]: ...
 def helix(

@@ -56,9 +56,9 @@ MOST = 10_000_000
 """Largest count: of nodes, points or segments that fit in memory."""
 
 
-def count(field: str, value: Any, least: int) -> int:
-    """Return a whole number from `least` to `MOST` (booleans are not numbers here)."""
+def count(field: str, value: Any, least: int, most: int = MOST) -> int:
+    """Return a whole number from `least` to `most` (booleans are not numbers here)."""
     whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
-    if not whole or not least <= value <= MOST:
-        raise InputError(field, value, f"a whole number from {least} to {MOST}")
+    if not whole or not least <= value <= most:
+        raise InputError(field, value, f"a whole number from {least} to {most}")
     return int(value)

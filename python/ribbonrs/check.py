@@ -12,14 +12,17 @@ from numpy.typing import NDArray
 
 from .errors import InputError
 
-__all__ = ["LARGEST", "Numbers", "number", "numbers", "positive", "vector"]
+__all__ = ["LARGEST", "Numbers", "Vector", "load", "load_vector", "number", "numbers", "positive", "vector"]
 
 Numbers: TypeAlias = Sequence[float] | NDArray[np.float64]
 """A list, tuple or one-dimensional array of numbers."""
 
+Vector: TypeAlias = tuple[float, float, float]
+"""Components on the fixed basis."""
 
 LARGEST = 1e60
-"""Largest dimension or stiffness, and the inverse of the least: Y h a^2 neither overflows nor vanishes."""
+"""Largest dimension, stiffness or load, and the inverse of the least: Y h a^2 neither overflows nor
+vanishes."""
 
 
 def number(field: str, value: object, expected: str = "a finite number") -> float:
@@ -55,10 +58,24 @@ def numbers(field: str, value: object, expected: str = "a list of finite numbers
     return tuple(number(f"{field}[{i}]", entry) for i, entry in enumerate(value))
 
 
-def vector(field: str, value: object) -> tuple[float, float, float]:
+def vector(field: str, value: object) -> Vector:
     """Return `value` as three floats if it is a sequence of three finite numbers."""
     expected = "three finite numbers"
     entries = numbers(field, value, expected)
     if len(entries) != 3:
         raise InputError(field, value, expected)
     return entries[0], entries[1], entries[2]
+
+
+def load(field: str, value: object) -> float:
+    """Return `value` as a float if it is a force or moment whose products with lengths stay finite."""
+    result = number(field, value)
+    if abs(result) > LARGEST:
+        raise InputError(field, value, f"a number of at most {LARGEST:g}")
+    return result
+
+
+def load_vector(field: str, value: object) -> Vector:
+    """Return `value` as three floats if it is a force or moment."""
+    x, y, z = vector(field, value)
+    return load(f"{field}[0]", x), load(f"{field}[1]", y), load(f"{field}[2]", z)

@@ -17,7 +17,7 @@ from tempfile import TemporaryDirectory
 
 from rich.console import Console
 
-from .equilibrium import chosen, equilibria
+from .equilibrium import chosen, equilibria, solve
 from .errors import InputError, RibbonError, RibbonWarning
 from .scenefile import Output, read
 from .state import State
@@ -59,8 +59,8 @@ def _run(path: Path) -> None:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", RibbonWarning)
         job = read(path)
-        states = equilibria(job.scene)
-        state = chosen(states)
+        states = [] if job.scene.loaded else equilibria(job.scene)
+        state = chosen(states) if states else solve(job.scene, **job.options)
         others = [other for other in states if other is not state]
         _write(state, job.outputs)
     for message in dict.fromkeys(str(warning.message) for warning in caught):

@@ -1,10 +1,11 @@
-"""How the strains of a state run along the ribbon: the same everywhere, or along a branch."""
+"""How the strains of a state run along the ribbon: the same everywhere, along a branch, or as loads ask."""
 
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from functools import cached_property
-from typing import TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -12,8 +13,23 @@ from . import _core
 from .arrays import Array
 from .errors import InputError
 from .helix import Helix, helix_of
+from .problem import problem_of
+from .scene import Scene
 
-__all__ = ["Along", "Course", "Uniform"]
+__all__ = ["Along", "Course", "Held", "Points", "Uniform"]
+
+SMALL_CURVATURE, SMALL_STRAIN = 1e-6, 1e-9
+"""Curvatures up to this times the thickness ratio, and axial strains up to this, do not differ."""
+
+
+class Points(NamedTuple):
+    """What is known at m places; `force` and `moment` on the directors."""
+
+    strains: Array
+    position: Array
+    quaternion: Array
+    force: Array
+    moment: Array
 
 
 class Uniform:
@@ -28,9 +44,10 @@ class Uniform:
         """Return the strains at S (m,), in any order: array (m, 4)."""
         return np.tile(self.strain, (S.size, 1))
 
-    def poses(self, S: Array, position: Array, quaternion: Array) -> tuple[Array, Array]:
-        """Return positions (m, 3) and quaternions (m, 4) at S (m,), in any order, from the pose at S = 0."""
-        return _core.helix(S, self.strain, position, quaternion)
+    def points(self, S: Array, position: Array, quaternion: Array) -> Points:
+        """Return all there is at S (m,), in any order, from the pose at S = 0 if the start is clamped."""
+        poses = _core.helix(S, self.strain, position, quaternion)
+        return Points(self.strains(S), *poses, np.zeros((S.size, 3)), np.zeros((S.size, 3)))
 
     def sections(self, S: Array) -> list[tuple[Array, float | None]]:
         """Return strains (4,) and S of each cross-section at S (m,); here one, without S: all are alike."""
@@ -45,32 +62,19 @@ class Uniform:
         return helix_of(self.strain, length, thickness_ratio)
 
 
-class Along:
-    """Strains that vary with S in [0, `length`], along a branch of natural shapes; methods as `Uniform`."""
+class _Varying(ABC):
+    """Strains that vary with S in [0, `length`]; methods as `Uniform`."""
 
-    uniform = False
-
-    def __init__(self, branch: _core.NaturalBranch, length: float) -> None:
-        self.branch = branch
-        self.length = length
+    length: float
 
     @property
-    def strain(self) -> Array:
-        """There is none: an error that says what to use instead."""
-        expected = "a ribbon that is uniform; of one that varies see strains and at(S)"
-        raise InputError("state.strain", "different along the ribbon", expected)
+    @abstractmethod
+    def breaks(self) -> Array:
+        """Where the elements meet."""
 
+    @abstractmethod
     def strains(self, S: Array) -> Array:
         """Return the strains, where they jump those to the right."""
-        return self.branch.strains(S) + 0.0  # no negative zeros
-
-    def poses(self, S: Array, position: Array, quaternion: Array) -> tuple[Array, Array]:
-        """Return positions and quaternions."""
-        order = np.argsort(S)
-        back = np.empty_like(order)
-        back[order] = np.arange(order.size)
-        positions, quaternions = self.branch.poses(S[order], position, quaternion)
-        return positions[back], quaternions[back]
 
     def sections(self, S: Array) -> list[tuple[Array, float | None]]:
         """Return the strains and S of every one."""
@@ -83,15 +87,114 @@ class Along:
 
     @cached_property
     def _turns(self) -> tuple[Array, Array]:
-        places = np.union1d(self.branch.breaks, np.linspace(0.0, self.length, 1001))
+        places = np.union1d(self.breaks, np.linspace(0.0, self.length, 1001))
         rate = np.linalg.norm(self.strains(places)[:, 1:], axis=1) / (2.0 * math.pi)
         steps = np.diff(places) * (rate[1:] + rate[:-1]) / 2.0
         return places, np.concatenate([[0.0], np.cumsum(steps)])
+
+
+class Along(_Varying):
+    """Strains along a branch of natural shapes."""
+
+    uniform = False
+
+    def __init__(self, branch: _core.NaturalBranch, length: float) -> None:
+        self.branch = branch
+        self.length = length
+
+    @property
+    def breaks(self) -> Array:
+        """Where the elements meet."""
+        return self.branch.breaks
+
+    @property
+    def strain(self) -> Array:
+        """There is none: an error that says what to use instead."""
+        raise _no_strain()
+
+    def strains(self, S: Array) -> Array:
+        """Return the strains, where they jump those to the right."""
+        return self.branch.strains(S) + 0.0  # no negative zeros
+
+    def points(self, S: Array, position: Array, quaternion: Array) -> Points:
+        """Return all there is at S (m,)."""
+        order = np.argsort(S)
+        back = np.empty_like(order)
+        back[order] = np.arange(order.size)
+        positions, quaternions = self.branch.poses(S[order], position, quaternion)
+        poses = positions[back], quaternions[back]
+        return Points(self.strains(S), *poses, np.zeros((S.size, 3)), np.zeros((S.size, 3)))
 
     def helix(self, length: float, thickness_ratio: float) -> Helix | None:
         """Return None: the centreline is no helix."""
         return None
 
 
-Course: TypeAlias = Uniform | Along
+class Held(_Varying):
+    """Strains that loads and ends ask for: the solution of a boundary-value problem."""
+
+    def __init__(self, solution: _core.BoundarySolution, scene: Scene) -> None:
+        self.solution = solution
+        self.scene = scene
+        self.length = scene.ribbon.length_ratio
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the numbers of the solution: the core's problem follows from the scene."""
+        return _restored, (self.scene, self.solution.parts())
+
+    @property
+    def breaks(self) -> Array:
+        """Where the elements meet."""
+        return self.solution.breaks
+
+    @cached_property
+    def uniform(self) -> bool:
+        """Whether the strains are the same all along, to the tolerances by which phases are named."""
+        places = np.union1d(self.breaks, np.linspace(0.0, self.length, 101))
+        eps, *curvatures = np.ptp(self.strains(places), axis=0)
+        return bool(
+            eps <= SMALL_STRAIN and max(curvatures) <= SMALL_CURVATURE * self.scene.ribbon.thickness_ratio
+        )
+
+    @cached_property
+    def phase(self) -> str:
+        """The name of the shape by K2 and K3, as of natural shapes; "curved" if it is not uniform."""
+        if not self.uniform:
+            return "curved"
+        bent, twisted = np.abs(self.strain[2:]) > SMALL_CURVATURE * self.scene.ribbon.thickness_ratio
+        return ("helical" if twisted else "bent") if bent else ("twisted" if twisted else "flat")
+
+    @cached_property
+    def strain(self) -> Array:
+        """The strains (4,) where they are the same all along, else an error."""
+        if not self.uniform:
+            raise _no_strain()
+        strain: Array = self.strains(np.zeros(1))[0]
+        strain.setflags(write=False)
+        return strain
+
+    def strains(self, S: Array) -> Array:
+        """Return the strains, at a point load those to the right."""
+        return self.solution.at(S)[0] + 0.0  # no negative zeros
+
+    def points(self, S: Array, position: Array, quaternion: Array) -> Points:
+        """Return all there is at S (m,); the pose at S = 0 is part of the solution."""
+        strains, *rest = self.solution.at(S)
+        return Points(strains + 0.0, *rest)
+
+    def helix(self, length: float, thickness_ratio: float) -> Helix | None:
+        """Return the helix of the centreline if the strains are the same all along."""
+        return helix_of(self.strain, length, thickness_ratio) if self.uniform else None
+
+
+Course: TypeAlias = Uniform | Along | Held
 """How the strains of a state run along the ribbon."""
+
+
+def _restored(scene: Scene, parts: _core._Parts) -> Held:
+    return Held(problem_of(scene).restored(parts), scene)
+
+
+def _no_strain() -> InputError:
+    expected = "a state that is uniform; of one that varies see strains and at(S)"
+    return InputError("state.strain", "different along the ribbon", expected)

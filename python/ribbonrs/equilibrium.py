@@ -1,4 +1,4 @@
-r"""Unloaded equilibria: the roots of dPi = 0, of a ribbon that varies along its length in branches."""
+r"""Equilibria of a scene: without load the roots of dPi = 0, of a ribbon that varies in branches."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from typing import TypeAlias, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core
+from . import _core, boundary
 from .arrays import Array, count, vector
-from .check import number
 from .course import Along, Uniform
 from .errors import ConvergenceError, InputError, RibbonWarning
 from .growth import Growth
 from .law import SectionLaw
+from .linear import LinearLaw
 from .report import Event, Report
 from .ribbon import Ribbon
 from .scene import Scene
@@ -31,6 +31,9 @@ SERIES_RADIUS = 7.4578
 """|K2|/eta up to which the quadratic law's expansion converges in an incompressible material.
 
 From the least zero of sinh z + sin z; in others in proportion to (Q22/Y)^(1/2)."""
+
+METHODS = ("pointwise", "collocation")
+"""What `solve` may be told to use."""
 
 METHOD = "pointwise natural shape"
 METHOD_ALONG = "natural shapes followed along the ribbon"
@@ -86,6 +89,7 @@ def natural_shapes(ribbon: Ribbon, growth: Growth | _Growths) -> list[State] | l
     [['flat'], ['bent', 'bent'], ['bent', 'bent']]
     """
     if not isinstance(growth, list | tuple):
+        _check_growth("growth", growth)
         return _all_equilibria([Scene(ribbon, growth)], NODES)[0]
     scenes = [_scene(ribbon, one, i) for i, one in enumerate(growth)]
     return _all_equilibria(scenes, NODES)
@@ -97,39 +101,48 @@ def solve(
     tol: float = 1e-10,
     degree: int | None = None,
     n: int = NODES,
+    method: str | None = None,
 ) -> State:
-    r"""Return an equilibrium of `scene`: an unloaded ribbon, clamped at its start.
+    r"""Return an equilibrium of `scene`.
 
-    Without `guess` the stable one of lowest energy, of mirror images the one with K2 > 0, then K3 > 0; of a
-    ribbon that varies along its length, the branch of stable shapes with the fewest jumps, then of lowest
-    energy.
+    Of an unloaded ribbon clamped at its start and free at its end, without `guess` the stable one of lowest
+    energy, of mirror images the one with K2 > 0, then K3 > 0; of a ribbon that varies along its length, the
+    branch of stable shapes with the fewest jumps, then of lowest energy. Of a ribbon that is loaded or held
+    otherwise, the one continued from `guess`, or from zero load.
 
     Parameters
     ----------
     scene : Scene
         What to solve.
-    guess : State or (4,) array, optional
-        A state, or eps, K1, K2, K3: return the equilibrium nearest to it in (K2, K3) at S = 0; stable or not
-        if the ribbon is uniform.
-    tol, degree : float, int
-        Tolerance in [1e-14, 1) and polynomial degree of the collocation for loaded ribbons, which this
-        version does not solve; natural shapes are found to rounding.
+    guess : State, (4,) or (n, 4) array, optional
+        A state, or eps, K1, K2, K3. Of natural shapes the nearest to it in (K2, K3) at S = 0 is returned,
+        stable or not if the ribbon is uniform. A boundary-value problem starts from it; there the strains may
+        also be given at n equally spaced S.
+    tol : float
+        Tolerance of the boundary-value problem in [1e-14, 1), for positions over the length, angles, eps and
+        curvatures times the length. Natural shapes are found to rounding.
+    degree : int, optional
+        Degree of its collocation, 1 to 8.
     n : int
         Number of nodes of the state, at least 2, equally spaced.
+    method : str, optional
+        "pointwise" for natural shapes, "collocation" for the boundary-value problem, which also solves
+        unloaded ribbons; None chooses.
 
     Raises
     ------
     InputError
         An argument out of range, or growth that the scene's law cannot represent.
     ConvergenceError
-        No equilibrium is stable, as happens with ``law="quadratic"``, or a branch cannot be followed.
+        No equilibrium is stable, as happens with ``law="quadratic"``, a branch cannot be followed, or the
+        boundary-value problem is not solved: the error has the last solution on the way.
 
     Warns
     -----
     RibbonWarning
-        Where the shape jumps along the ribbon; if it bends so much that the law of growth that jumps loses
-        digits; and with ``law="quadratic"``, if \|K2\|/eta > 7.46 (incompressible material), where its series
-        diverges.
+        Where the shape jumps along the ribbon; if rounding is larger than `tol`; if the ribbon bends so much
+        that the law of growth that jumps loses digits; and with ``law="quadratic"``, if \|K2\|/eta > 7.46
+        (incompressible material), where its series diverges.
 
     Examples
     --------
@@ -147,16 +160,29 @@ def solve(
     """
     if not isinstance(scene, Scene):
         raise InputError("scene", scene, "a Scene")
-    expected = "a number in [1e-14, 1)"
-    if not 1e-14 <= number("tol", tol, expected) < 1.0:
-        raise InputError("tol", tol, expected)
-    if degree is not None:
-        count("degree", degree, 1)
+    tol = boundary.tolerance("tol", tol)
+    degree = boundary.degree_of("degree", degree)
+    if method is not None and (not isinstance(method, str) or method not in METHODS):
+        raise InputError("method", method, f"one of {', '.join(METHODS)}, or None")
+    if method == "pointwise" and scene.loaded:
+        raise InputError("method", method, "'collocation', since the ribbon is loaded or held")
+    if method == "collocation" or scene.loaded:
+        return _held(scene, guess, tol, degree, n)
     return chosen(_all_equilibria([scene], n)[0], guess)
 
 
+def _held(scene: Scene, guess: State | ArrayLike | None, tol: float, degree: int | None, n: int) -> State:
+    """The solution of the boundary-value problem, with its warnings."""
+    state = boundary.equilibrium(scene, guess, tol, degree, count("n", n, 2))
+    if not isinstance(scene.law, LinearLaw):
+        _warn_beyond_modes([(scene.section_law, [state])])
+    if scene.law == "quadratic":
+        _warn_beyond_radius(state)
+    return state
+
+
 def equilibria(scene: Scene, n: int = NODES) -> list[State]:
-    """Return every equilibrium of `scene`, with its law and start, in the order of `natural_shapes`."""
+    """Return every equilibrium of an unloaded `scene`, in the order of `natural_shapes`."""
     return _all_equilibria([scene], n)[0]
 
 
@@ -194,8 +220,15 @@ def _told(event: Event) -> str:
     return f"S = {event.S:.6g} from {before} to {after}"
 
 
+def _check_growth(field: str, growth: object) -> None:
+    """A scene may be without growth, but nobody asks for the natural shapes of what does not grow."""
+    if growth is None:
+        raise InputError(field, growth, "a Growth, such as growth.edge(0.06)")
+
+
 def _scene(ribbon: Ribbon, growth: Growth, i: int) -> Scene:
     """The scene of one growth of a list, which errors name."""
+    _check_growth(f"growth[{i}]", growth)
     try:
         return Scene(ribbon, growth)
     except InputError as error:
@@ -208,7 +241,7 @@ def _scene(ribbon: Ribbon, growth: Growth, i: int) -> Scene:
 def _all_equilibria(scenes: list[Scene], n: int) -> list[list[State]]:
     """Every equilibrium of each scene of one ribbon; the uniform ones are handed to the core at once."""
     size = count("n", n, 2)
-    laws = [SectionLaw.of(scene.ribbon, scene.growth, scene.law) for scene in scenes]
+    laws = [scene.section_law for scene in scenes]
     shared = [law.core() for law in laws if not law.varies]
     # A single one is not worth waking the other cores.
     shapes = _core.natural_shapes_of(shared) if shared[1:] else [core.natural_shapes() for core in shared]

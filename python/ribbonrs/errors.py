@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import reprlib
 from enum import Enum
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from .state import State
 
 __all__ = ["MISSING", "ConvergenceError", "InputError", "RibbonError", "RibbonWarning", "shown"]
 
@@ -70,16 +74,28 @@ class ConvergenceError(RibbonError, RuntimeError):
         The residual norm after each iteration.
     advice : str
         What to try next.
+    state : State, optional
+        The last solution on the way, for a part of the loads.
+    fraction : float
+        How much of the loads, and of the way of the ends to where they are held, it has.
     """
 
     def __init__(
-        self, reason: str, iterate: NDArray[np.float64], residuals: tuple[float, ...], advice: str
+        self,
+        reason: str,
+        iterate: NDArray[np.float64],
+        residuals: tuple[float, ...],
+        advice: str,
+        state: State | None = None,
+        fraction: float = 0.0,
     ) -> None:
-        super().__init__(reason, iterate, residuals, advice)
+        super().__init__(reason, iterate, residuals, advice, state, fraction)
         self.reason = reason
         self.iterate = iterate
         self.residuals = residuals
         self.advice = advice
+        self.state = state
+        self.fraction = fraction
 
     def __str__(self) -> str:
         return f"{self.reason}; try {self.advice}"

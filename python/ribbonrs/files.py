@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import math
 import os
 import tempfile
 from collections.abc import Iterator
@@ -18,10 +19,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .arrays import Array
+from .ends import Closed
 from .errors import InputError
+from .linear import LinearLaw
+from .loads import PointLoad
 from .pieces import Pieces
 
 if TYPE_CHECKING:
+    from .loads import Load
     from .ribbon import Ribbon
     from .scene import Scene
     from .state import State
@@ -32,15 +37,16 @@ NX = 41
 """Points across the width in every file."""
 
 UNITS = (
-    "S, x, strains, position, quaternion, directors, force, moment, energy, u: dimensionless (lengths in the "
-    "width a, S = X3/a, x = X2 over the width at S, curvatures in 1/a, force and energy in Y h a, moment in "
-    "Y h a^2). "
+    "S, x, strains, position, quaternion, directors, force, moment, reaction_force, reaction_moment, energy, "
+    "load_potential, u: dimensionless (lengths in the width a, S = X3/a, x = X2 over the width at S, "
+    "curvatures in 1/a, force, energy and load_potential in Y h a, moment in Y h a^2). "
     "physical_* and surface: the user's units, of which length_unit (a), force_unit (Y h a) and "
     "moment_unit (Y h a^2) are the factors. Strains are eps, K1, K2, K3; quaternions scalar first; "
-    "directors are rows d1, d2, d3 in the fixed basis; force and moment are components on the directors; "
+    "directors are rows d1, d2, d3 in the fixed basis; force and moment are components on the directors, "
+    "reactions on the fixed basis, rows for the start and the end; "
     "u is u1, u2, u3 at S, x. A function of S is kept in scene as its pieces: breaks in S and the Legendre "
-    "coefficients of each. Of a ribbon that varies along S there is no helix: handedness, turns, "
-    "physical_radius and physical_pitch are left out."
+    "coefficients of each. Where strains vary along S there is no helix: handedness, turns, "
+    "physical_radius and physical_pitch are left out, and where stability is not known index and stable."
 )
 
 
@@ -155,7 +161,7 @@ def _write_obj(state: State, path: Path) -> None:
 
 
 def _write_npz(state: State, path: Path) -> None:
-    ribbon, physical = state.scene.ribbon, state.physical
+    ribbon, physical, reactions = state.scene.ribbon, state.physical, state.reactions
     x = np.linspace(-0.5, 0.5, NX)
     force_unit = ribbon.material.Y * ribbon.thickness * ribbon.width
     contents: dict[str, Any] = {
@@ -167,11 +173,12 @@ def _write_npz(state: State, path: Path) -> None:
         "directors": state.directors,
         "force": state.force,
         "moment": state.moment,
+        "reaction_force": np.stack([wrench.force for wrench in (reactions.start, reactions.end)]),
+        "reaction_moment": np.stack([wrench.moment for wrench in (reactions.start, reactions.end)]),
         "u": state.displacements(x),
         "energy": state.energy,
+        "load_potential": state.load_potential,
         "section_index": state.section_index,
-        "index": state.index,
-        "stable": state.stable,
         "resolved": state.resolved,
         "phase": state.phase,
         "phases": state.phases,
@@ -181,15 +188,18 @@ def _write_npz(state: State, path: Path) -> None:
         "physical_force": physical.force,
         "physical_moment": physical.moment,
         "physical_energy": physical.energy,
+        "physical_load_potential": physical.load_potential,
         "surface": ribbon.width * state.surface(NX),
         "length_unit": ribbon.width,
         "force_unit": force_unit,
         "moment_unit": force_unit * ribbon.width,
         "units": UNITS,
         "scene": json.dumps(_scene_record(state.scene)),
-        "report": json.dumps(asdict(state.report)),
+        "report": json.dumps(_finite(asdict(state.report))),
         "ribbonrs_version": version("ribbonrs"),
     }
+    if state.index is not None:
+        contents |= {"index": state.index, "stable": state.stable}
     if physical.helix is not None:
         contents |= {
             "handedness": physical.helix.handedness,
@@ -212,8 +222,24 @@ def _scene_record(scene: Scene) -> dict[str, Any]:
         "growth": {"terms": terms},
         "start": {"kind": type(scene.start).__name__, **asdict(scene.start)},
         "end": {"kind": type(scene.end).__name__, **asdict(scene.end)},
-        "law": scene.law,
+        "gravity": scene.gravity,
+        "loads": [_load_record(load, length) for load in scene.loads],
+        "law": _law_record(scene.law),
     }
+
+
+def _load_record(load: Load, length: float) -> dict[str, Any]:
+    if isinstance(load, PointLoad):
+        return {"kind": "PointLoad", **asdict(load)}
+    known = {name: [_plain(f) for f in components] for name, components in load.along(length).items()}
+    return {"kind": "LineLoad", **known}
+
+
+def _law_record(law: str | LinearLaw) -> Any:
+    """A linear law by its compliances, which are finite."""
+    if isinstance(law, str):
+        return law
+    return {"kind": "LinearLaw", "compliance": law.compliance, "intrinsic": law.intrinsic}
 
 
 def _ribbon_record(ribbon: Ribbon) -> dict[str, Any]:
@@ -234,10 +260,26 @@ def _plain(value: object) -> Any:
     return [_plain(entry) for entry in value] if isinstance(value, tuple) else value
 
 
+def _finite(value: Any) -> Any:
+    """None for a number that JSON cannot say, within dictionaries, lists and tuples."""
+    if isinstance(value, dict):
+        return {key: _finite(entry) for key, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(entry) for entry in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
 def _mesh(state: State) -> tuple[Array, NDArray[np.int64]]:
-    """Mid-surface points (n NX, 3) in the user's length unit and quadrilaterals (m, 4) facing +d1."""
+    """Mid-surface points (n NX, 3) in the user's length unit and quadrilaterals (m, 4) facing +d1.
+
+    The last row of points of a closed ribbon is its first, from the other side after odd half turns; the last
+    quadrilaterals meet the first.
+    """
     points = state.scene.ribbon.width * state.surface(NX)
     number = np.arange(points.shape[0] * NX, dtype=np.int64).reshape(-1, NX)
+    start = state.scene.start
+    if isinstance(start, Closed):
+        number[-1] = number[0, ::-1] if start.one_sided else number[0]
     corners = (number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1])
     return points.reshape(-1, 3), np.stack(corners, axis=-1).reshape(-1, 4)
 

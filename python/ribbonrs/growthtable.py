@@ -15,7 +15,7 @@ from . import growth as growths
 from .errors import InputError
 from .growth import Growth
 
-__all__ = ["SAMPLES", "Along", "GrowthTable", "Table"]
+__all__ = ["TABLE", "VALUE", "Along", "GrowthTable", "Table", "as_list", "table_or_value"]
 
 
 class Table(BaseModel):
@@ -37,7 +37,8 @@ class Table(BaseModel):
         return {key: v.pair() if isinstance(v, _Samples) else v for key, v in values.items()}
 
 
-def _as_list(value: object) -> object:
+def as_list(value: object) -> object:
+    """Let a single entry stand for a list of one."""
     return value if isinstance(value, list) else [value]
 
 
@@ -46,7 +47,7 @@ class _Samples(Table):
 
     def pair(self) -> tuple[Any, ...]:
         """Places and values as Python takes them: sequences, for two numbers would be a polynomial."""
-        return tuple(_as_list(getattr(self, key)) for key in type(self).model_fields)
+        return tuple(as_list(getattr(self, key)) for key in type(self).model_fields)
 
 
 class _AcrossSamples(_Samples):
@@ -59,17 +60,18 @@ class _AlongSamples(_Samples):
     values: Any
 
 
-def _tag(value: object) -> str:
-    return SAMPLES if isinstance(value, dict) else "value"
+TABLE, VALUE = "<table>", "<value>"
+"""What pydantic adds to the path of a key that may be a table or a value."""
 
 
-SAMPLES = "<samples>"
-"""What pydantic adds to the path of a key in a table of samples."""
+def table_or_value(value: object) -> str:
+    """Tell which of the two it is."""
+    return TABLE if isinstance(value, dict) else VALUE
 
-Across = Annotated[
-    Annotated[_AcrossSamples, Tag(SAMPLES)] | Annotated[Any, Tag("value")], Discriminator(_tag)
-]
-Along = Annotated[Annotated[_AlongSamples, Tag(SAMPLES)] | Annotated[Any, Tag("value")], Discriminator(_tag)]
+
+_Value = Annotated[Any, Tag(VALUE)]
+Across = Annotated[Annotated[_AcrossSamples, Tag(TABLE)] | _Value, Discriminator(table_or_value)]
+Along = Annotated[Annotated[_AlongSamples, Tag(TABLE)] | _Value, Discriminator(table_or_value)]
 
 
 class _ThicknessTable(Table):
@@ -121,7 +123,7 @@ class GrowthTable(Table):
     edge: Along = None
     thickness: Annotated[_ThicknessTable, BeforeValidator(_as_thickness)] | None = None
     chiral: Along = None
-    profile: Annotated[list[_ProfileTable], BeforeValidator(_as_list)] = []
+    profile: Annotated[list[_ProfileTable], BeforeValidator(as_list)] = []
     csv: Annotated[_CsvTable, BeforeValidator(_as_csv)] | None = None
 
     def make(self, directory: Path) -> Growth:

@@ -16,7 +16,7 @@ from .pieces import Pieces
 from .ribbon import THINNEST, Ribbon
 from .terms import core_pieces
 
-__all__ = ["SectionLaw"]
+__all__ = ["SectionLaw", "across"]
 
 FORMS = {"full": "auto", "quadratic": "second-order"}
 """The core's form of each `law`."""
@@ -171,9 +171,7 @@ class SectionLaw:
         deflection has no component on 1 and x, eqs. (16), (17). Not defined for the quadratic law, which is
         an energy only.
         """
-        one, points, place = self._section(strain, x, S)
-        if count("derivative", derivative, 0) > 2:
-            raise InputError("derivative", derivative, "0, 1 or 2")
+        one, points, place = self._section(strain, x, S, derivative)
         return self.core(place).deflection(one, points.ravel(), derivative, place).reshape(points.shape)
 
     def displacements(self, strain: ArrayLike, x: ArrayLike, S: float | None = None) -> Array:
@@ -184,16 +182,15 @@ class SectionLaw:
         one, points, place = self._section(strain, x, S)
         return self.core(place).displacements(one, points.ravel(), place).reshape((*points.shape, 3))
 
-    def _section(self, strain: ArrayLike, x: ArrayLike, S: float | None) -> tuple[Array, Array, float]:
+    def _section(
+        self, strain: ArrayLike, x: ArrayLike, S: float | None, derivative: int = 0
+    ) -> tuple[Array, Array, float]:
         if self.law == "quadratic":
             raise InputError("law", self.law, '"full": the quadratic law has no deflection')
         one = strain_array("strain", strain)
         if one.shape != (4,):
             raise InputError("strain.shape", one.shape, "(4,): eps, K1, K2, K3")
-        points = real_array("x", x, "numbers in [-1/2, 1/2]")
-        outside = points[np.abs(points) > 0.5]
-        if outside.size:
-            raise InputError("x", float(outside[0]), "numbers in [-1/2, 1/2]")
+        points = across(x, derivative)
         if S is not None and real_array("S", S, "a number").ndim:
             raise InputError("S", S, "a number: where along the ribbon this one section is")
         place = self._places(S, ())
@@ -230,6 +227,16 @@ class SectionLaw:
             if pieces is not None:
                 start, end = max(start, pieces.domain[0]), min(end, pieces.domain[1])
         return start, end * (1.0 + END)
+
+
+def across(x: ArrayLike, derivative: int = 0) -> Array:
+    """Return the places x (...) across the width at which a deflection, or a derivative of it, is wanted."""
+    points = real_array("x", x, "numbers in [-1/2, 1/2]")
+    outside = points[np.abs(points) > 0.5]
+    if outside.size:
+        raise InputError("x", float(outside[0]), "numbers in [-1/2, 1/2]")
+    count("derivative", derivative, 0, 2)
+    return points
 
 
 SHORTEST = 1.0

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.polynomial.legendre import legadd, legmulx, legval
+from numpy.polynomial.legendre import legadd, leggauss, legmulx, legval, legvander
 from numpy.typing import ArrayLike
 
 from .arrays import Array
 
-__all__ = ["Pieces", "grid", "joined", "linear", "series"]
+__all__ = ["Pieces", "added", "grid", "joined", "linear", "series"]
 
 
 @dataclass(frozen=True)
@@ -74,6 +74,29 @@ class Pieces:
     def scaled(self, factor: float) -> Pieces:
         """Return `factor` times the function."""
         return Pieces(self.breaks, tuple(tuple(factor * c for c in piece) for piece in self.coefficients))
+
+
+def added(functions: Sequence[float | Pieces], domain: tuple[float, float]) -> float | Pieces:
+    """Return the sum of numbers and functions, which cover `domain` but for rounding, over all of it."""
+    varying = [f for f in functions if isinstance(f, Pieces)]
+    constant = sum(f for f in functions if not isinstance(f, Pieces))
+    if not varying:
+        return constant
+    start, end = domain
+    close = 1e-12 * (end - start)
+    breaks = [start]
+    for t in sorted({t for f in varying for t in f.breaks}):
+        if t - breaks[-1] > close and end - t > close:
+            breaks.append(t)
+    breaks.append(end)
+    # Gauss points project a polynomial of degree n - 1 onto the first n Legendre polynomials exactly.
+    degree = max(f.degree for f in varying)
+    xi, weights = leggauss(degree + 1)
+    project = (np.arange(degree + 1) + 0.5)[:, None] * legvander(xi, degree).T * weights
+    starts, ends = np.array(breaks[:-1]), np.array(breaks[1:])
+    points = 0.5 * (starts + ends)[:, None] + 0.5 * (ends - starts)[:, None] * xi
+    values = constant + sum(f.evaluate(points) for f in varying)
+    return Pieces(tuple(breaks), tuple(map(tuple, (values @ project.T).tolist())))
 
 
 def grid(

@@ -18,7 +18,9 @@ from matplotlib.figure import Figure
 from .arrays import Array
 from .errors import InputError
 from .files import replacing
+from .marks import draw_marks, marks_of
 from .render import Picture, render
+from .state import shown_strains
 from .surface import section
 
 if TYPE_CHECKING:
@@ -44,7 +46,9 @@ def plot(state: State, path: str | PathLike[str] | None = None) -> Figure:
     u1/h and shaded; of a ribbon of more than 20 turns, these are drawn. The profile shows u1/h across the
     width; the cross-section has the true proportions of width, thickness and deflection. Of a ribbon that
     varies there are profiles at both ends and halfway and, in place of the cross-section, the curvatures
-    along S, with its events as vertical lines.
+    along S, with its events as vertical lines. Ends that are held have a mark, a square where they are
+    clamped, a diamond where they slide, a triangle where they are pinned and a circle where they are hinged;
+    arrows show the directions of forces at ends and points, and of gravity.
 
     Parameters
     ----------
@@ -64,6 +68,7 @@ def plot(state: State, path: str | PathLike[str] | None = None) -> Figure:
         A suffix that matplotlib does not know.
     """
     picture = render(state)
+    marks = marks_of(state, picture)
     h = state.scene.ribbon.thickness_ratio
     x = np.linspace(-0.5, 0.5, 201, dtype=np.float64)
     places = np.array([0.0, 0.5, 1.0]) * state.scene.ribbon.length_ratio
@@ -74,8 +79,9 @@ def plot(state: State, path: str | PathLike[str] | None = None) -> Figure:
 
     figure = Figure(dpi=DPI, facecolor="white")
     FigureCanvasAgg(figure)
-    space, bar, profile, beside = _layout(figure, picture.aspect)
-    _draw_space(space, picture, picture.u1 / h, colour, _note(state, picture))
+    space, bar, profile, beside = _layout(figure, picture.aspect, marks.margin)
+    inch = _draw_space(space, picture, picture.u1 / h, colour, _note(state, picture), marks.margin)
+    draw_marks(space, marks, inch)
     _draw_profiles(profile, x, profiles, colour)
     figure.colorbar(colour, cax=bar, ticklocation="left").set_label("deflection $u_1/h$")
     if state.uniform:
@@ -89,14 +95,14 @@ def plot(state: State, path: str | PathLike[str] | None = None) -> Figure:
     return figure
 
 
-def _layout(figure: Figure, aspect: float) -> tuple[Axes, Axes, Axes, Axes]:
-    """Axes of the ribbon, the colour bar, the profile and the section, for a picture of this width/height.
+def _layout(figure: Figure, aspect: float, margin: float) -> tuple[Axes, Axes, Axes, Axes]:
+    """Axes of the ribbon, the colour bar, the profile and the section.
 
-    The colour bar is the vertical axis of the profile. A long picture has them below it, another beside it.
-    Lengths in inches from the lower left corner.
+    The picture has this width/height and a margin around it. The colour bar is the vertical axis of the
+    profile. A long picture has them below it, another beside it. Inches from the lower left corner.
     """
     if aspect > 2.4:
-        high = 3.2 + KEY + min(max(10.6 / aspect, 0.8), 4.2)
+        high = 3.2 + KEY + min(max(10.6 / aspect, 0.8), 4.2) + 2.0 * margin
         places = (
             (0.2, 2.7, 10.6, high - 3.2),
             (0.9, 0.6, 0.14, 1.8),
@@ -113,7 +119,10 @@ def _layout(figure: Figure, aspect: float) -> tuple[Axes, Axes, Axes, Axes]:
     return space, bar, profile, section
 
 
-def _draw_space(axes: Axes, picture: Picture, deflection: Array, colour: ScalarMappable, note: str) -> None:
+def _draw_space(
+    axes: Axes, picture: Picture, deflection: Array, colour: ScalarMappable, note: str, margin: float
+) -> float:
+    """The body, with a margin in inches around it; returns the length of an inch in widths."""
     rgb = np.asarray(colour.to_rgba(deflection))[:, :3] * picture.shade[:, None]
     rgb = rgb + (1.0 - rgb) * picture.gloss[:, None]
     # edges in the colour of their cell close the seams between cells
@@ -123,11 +132,13 @@ def _draw_space(axes: Axes, picture: Picture, deflection: Array, colour: ScalarM
     )
     low, high = picture.extent
     box = np.array([axes.bbox.width, axes.bbox.height]) / DPI  # inches
-    inch = 1.03 * float(max((high - low) / (box - [0.0, KEY])))  # in units of the ribbon's width
+    room = box - [0.0, KEY] - 2.0 * margin
+    inch = 1.03 * float(max((high - low) / room))  # in units of the ribbon's width
     left, bottom = (low + high) / 2 - box * inch / 2 - [0.0, KEY * inch / 2]
     axes.set(xlim=(left, left + box[0] * inch), ylim=(bottom, bottom + box[1] * inch), aspect="equal")
     axes.axis("off")
     _draw_key(axes, picture.axes, np.array([left, bottom]), inch, note)
+    return inch
 
 
 def _draw_key(axes: Axes, directions: Array, corner: Array, inch: float, note: str) -> None:
@@ -210,10 +221,12 @@ def _draw_curvatures(axes: Axes, state: State) -> None:
 
 
 def _title(state: State) -> str:
-    strains = state.course.strains(state.S)
+    strains = shown_strains(state)
     names = (r"\varepsilon", "K_1", "K_2", "K_3")
     values = ",  ".join(f"${name}$ {_range(column)}" for name, column in zip(names, strains.T, strict=True))
     phase = f"{state.phase} ({', '.join(state.phases)})" if state.phases[1:] else state.phase
+    if state.stable is None:
+        return f"{phase}:  {values}"
     return f"{phase}, {'stable' if state.stable else 'unstable'}:  {values}"
 
 

@@ -15,13 +15,16 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Discriminator, ValidationError
+from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationError
 from pydantic_core import ErrorDetails
 
+from .boundary import degree_of, tolerance
 from .check import numbers
-from .ends import Clamped, Free
+from .ends import Clamped, Closed, Free, Hinged, Pinned, Sliding
 from .errors import MISSING, InputError, shown
-from .growthtable import SAMPLES, Along, GrowthTable, Table
+from .growthtable import TABLE, VALUE, Along, GrowthTable, Table, as_list, table_or_value
+from .linear import LinearLaw
+from .loads import LineLoad, PointLoad, weight
 from .material import Isotropic, MooneyRivlin, Orthotropic
 from .ribbon import Ribbon
 from .scene import Scene
@@ -50,6 +53,8 @@ class Job:
     """What a scene file asks for."""
 
     scene: Scene
+    options: dict[str, Any]
+    """`tol` and `degree` for `solve`, if they are given."""
     outputs: tuple[Output, ...]
     has_trace: bool
 
@@ -144,12 +149,85 @@ class _Free(_Kind):
     moment: Any = None
 
 
+class _Pinned(_Kind):
+    makes = Pinned
+    kind: Literal["pinned"]
+    position: Any = None
+    moment: Any = None
+
+
+class _Hinged(_Kind):
+    makes = Hinged
+    kind: Literal["hinged"]
+    director: Any = None
+    position: Any = None
+    moment: Any = None
+
+
+class _Sliding(_Kind):
+    makes = Sliding
+    kind: Literal["sliding"]
+    axis: Any = None
+    rotation: Any = None
+    twist_turns: Any = None
+    force: Any = None
+
+
+class _Closed(_Kind):
+    makes = Closed
+    kind: Literal["closed"]
+    link: Any = None
+
+
+class _PointLoad(_Kind):
+    makes = PointLoad
+    kind: Literal["point"]
+    S: Any
+    force: Any = None
+    moment: Any = None
+
+
+class _LineLoad(_Kind):
+    makes = LineLoad
+    kind: Literal["line"]
+    force: Along = None
+    moment: Along = None
+
+
+class _WeightTable(Table):
+    density: Any
+    g: Any
+
+
+class _LawTable(Table):
+    EA: Any = None
+    EI1: Any
+    EI2: Any
+    GJ: Any
+    inextensible: Any = None
+    intrinsic: Any = None
+
+
+class _SolveTable(Table):
+    tol: Any = None
+    degree: Any = None
+
+    def make(self) -> dict[str, Any]:
+        checks: dict[str, Callable[[str, object], Any]] = {"tol": tolerance, "degree": degree_of}
+        return {key: checks[key](f"solve.{key}", value) for key, value in self.given().items()}
+
+
 _MaterialTable = Annotated[_Isotropic | _MooneyRivlin | _Orthotropic, Discriminator("kind")]
-_EndTable = Annotated[_Clamped | _Free, Discriminator("kind")]
+_EndTable = Annotated[_Clamped | _Free | _Pinned | _Hinged | _Sliding, Discriminator("kind")]
+_StartTable = Annotated[_Clamped | _Free | _Pinned | _Hinged | _Sliding | _Closed, Discriminator("kind")]
+_LoadTable = Annotated[_PointLoad | _LineLoad, Discriminator("kind")]
+_Law = Annotated[Annotated[_LawTable, Tag(TABLE)] | Annotated[Any, Tag(VALUE)], Discriminator(table_or_value)]
+_ENDS = ("clamped", "free", "pinned", "hinged", "sliding")
 _KINDS = {
     "material": ("isotropic", "mooney-rivlin", "orthotropic"),
-    "start": ("clamped",),
-    "end": ("free",),
+    "start": (*_ENDS, "closed"),
+    "end": _ENDS,
+    "loads": ("point", "line"),
 }
 
 
@@ -198,10 +276,14 @@ def _output(field: str, name: object, suffixes: tuple[str, ...]) -> Output:
 class _SceneTable(Table):
     ribbon: _RibbonTable
     material: _MaterialTable | None = None
-    growth: GrowthTable
-    start: _EndTable | None = None
+    growth: GrowthTable | None = None
+    start: _StartTable | None = None
     end: _EndTable | None = None
-    law: Any = None
+    gravity: Any = None
+    weight: _WeightTable | None = None
+    loads: Annotated[list[_LoadTable], BeforeValidator(as_list)] = Field(default_factory=list)
+    law: _Law = None
+    solve: _SolveTable = _SolveTable()
     trace: _TraceTable | None = None
     output: _OutputTable = _OutputTable()
 
@@ -210,20 +292,29 @@ class _SceneTable(Table):
         ribbon = self.ribbon.given()
         if self.material is not None:
             ribbon["material"] = self.material.make()
-        arguments: dict[str, Any] = {"ribbon": Ribbon(**ribbon), "growth": self.growth.make(directory)}
+        arguments: dict[str, Any] = {"ribbon": Ribbon(**ribbon)}
+        if self.growth is not None:
+            arguments["growth"] = self.growth.make(directory)
         for end in ("start", "end"):
             if end in given:
-                arguments[end] = _end(end, given[end])
+                arguments[end] = _named(end, given[end])
+        if "gravity" in given:
+            arguments["gravity"] = self.gravity
+        if self.weight is not None:
+            if "gravity" in given:
+                raise InputError("gravity", self.gravity, "none beside the table [weight]")
+            arguments["gravity"] = weight(arguments["ribbon"], **self.weight.given())
+        arguments["loads"] = [_named(f"loads[{i}]", load) for i, load in enumerate(self.loads)]
         if "law" in given:
-            arguments["law"] = self.law
+            arguments["law"] = LinearLaw(**self.law.given()) if isinstance(self.law, _LawTable) else self.law
         if self.trace is not None:
             self.trace.check()
-        outputs = self.output.make()
-        return Job(Scene(**arguments), outputs, has_trace=self.trace is not None)
+        options, outputs = self.solve.make(), self.output.make()
+        return Job(Scene(**arguments), options, outputs, has_trace=self.trace is not None)
 
 
-def _end(field: str, table: _Kind) -> Any:
-    """Make an end; a class of ends does not know which of the two it is for, so name the field here."""
+def _named(field: str, table: _Kind) -> Any:
+    """Make an end or a load; its class does not know which of several it is, so name the field here."""
     try:
         return table.make()
     except InputError as error:
@@ -234,19 +325,20 @@ def _end(field: str, table: _Kind) -> Any:
 def _input_error(detail: ErrorDetails) -> InputError:
     """Say in one line what pydantic found wrong with the structure."""
     kind, value = detail["type"], detail["input"]
-    table, *rest = detail["loc"] or ("",)
+    loc = detail["loc"] or ("",)
+    table, rest = loc[0], list(loc[1:])
+    number: list[str | int] = [step for step in rest[:1] if isinstance(step, int)]
     if table in _KINDS:
-        rest = rest[1:]  # pydantic adds the kind chosen
-    loc = tuple(step for step in (table, *rest) if step != SAMPLES) if table else ()
+        rest = number + rest[len(number) + 1 :]  # pydantic adds the kind chosen
+    loc = tuple(step for step in (table, *rest) if step != TABLE) if table else ()
     if kind == "unknown_key":
         key, known = detail["ctx"]["key"], detail["ctx"]["known"]
         nearest = get_close_matches(key, known, n=1, cutoff=0.0)[0]
         expected = f"one of {', '.join(known)}; the nearest is {nearest}"
         return InputError(_path(*loc, key), value[key], expected)
     if kind in ("union_tag_invalid", "union_tag_not_found"):
-        kinds = _KINDS[str(table)]
-        expected = f"one of {', '.join(kinds)}" if kinds[1:] else f"{kinds[0]}, all that this version solves"
-        return InputError(_path(table, "kind"), value.get("kind", MISSING), expected)
+        expected = f"one of {', '.join(_KINDS[str(table)])}"
+        return InputError(_path(table, *number, "kind"), value.get("kind", MISSING), expected)
     if kind == "missing":
         return InputError(_path(*loc), MISSING, "a value" if rest else "a table")
     return InputError(_path(*loc), value, "a table")

@@ -13,11 +13,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .arrays import Array, real_array
-from .course import Course
+from .course import Course, Held
+from .ends import pose
 from .errors import InputError
 from .frame import directors
 from .helix import Helix
 from .law import SectionLaw
+from .linear import LinearLaw
 from .report import Report
 from .scene import Scene
 from .surface import surface
@@ -25,7 +27,10 @@ from .surface import surface
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["Physical", "Reactions", "Sections", "State", "Wrench"]
+__all__ = ["Physical", "Reactions", "Sections", "State", "Wrench", "shown_strains"]
+
+SMALL = 1e-6
+"""Errors below this hide strains that are smaller still."""
 
 END = 1e-12
 """How far beyond its ends, relative to its length, a ribbon may be asked for."""
@@ -41,10 +46,18 @@ class Wrench:
 
 @dataclass(frozen=True)
 class Reactions:
-    """What holds the ribbon at its two ends."""
+    """What the two ends exert on the ribbon, moments about the ends themselves.
+
+    At a free end that is its dead load; the end of a closed ribbon is its start, from the other side.
+    """
 
     start: Wrench
     end: Wrench
+
+    def scaled(self, force: float, moment: float) -> Reactions:
+        """Return the same with forces and moments multiplied by these units."""
+        start, end = (Wrench(force * w.force, moment * w.moment) for w in (self.start, self.end))
+        return Reactions(start, end)
 
 
 @dataclass(frozen=True)
@@ -64,7 +77,8 @@ class Sections:
 class Physical:
     """A state in the user's units: lengths as given, stress in the unit of Young's modulus.
 
-    Directors, quaternions and the axial strain have no unit; `energy` is per length of the undeformed ribbon.
+    Directors, quaternions and the axial strain have no unit; `energy` and `load_potential` are per length of
+    the undeformed ribbon.
     """
 
     S: Array
@@ -72,24 +86,27 @@ class Physical:
     position: Array
     force: Array
     moment: Array
+    reactions: Reactions
     energy: float
+    load_potential: float
     helix: Helix | None
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class State:
-    r"""An equilibrium of an unloaded ribbon, clamped at its start.
+    r"""An equilibrium of a ribbon.
 
-    N = M = 0 everywhere, so that the strains at each S are a root of dPi = 0 there. Of a uniform ribbon they
-    are the same for all S and the centreline is an exact helix; of one that varies along its length they
-    follow a branch of stable roots. Lengths in units of the width a, S = X3/a in [0, L], forces in Y h a,
-    moments in Y h a^2; a and h are those of the `Ribbon`, also where its width and thickness vary.
+    Without loads on a ribbon with a free end N = M = 0 everywhere, so that the strains at each S are a root
+    of dPi = 0 there. Of a uniform ribbon they are the same for all S and the centreline is an exact helix; of
+    one that varies along its length they follow a branch of stable roots. Any other state is the solution of
+    a boundary-value problem. Lengths in units of the width a, S = X3/a in [0, L], forces in Y h a, moments in
+    Y h a^2; a and h are those of the `Ribbon`, also where its width and thickness vary.
 
     Attributes
     ----------
     scene : Scene
         What was solved.
-    course : Uniform or Along
+    course : Uniform, Along or Held
         How the strains run along the ribbon.
     energy : float
         Pi, mean over S, in units of Y h a.
@@ -98,6 +115,8 @@ class State:
     phases : tuple of str
         "flat", "bent", "twisted" or "helical": whether K2 and K3 exceed 1e-6 thickness/width, of a ribbon
         that varies those at S. K1 does not change the name. In the order in which they are met along S.
+        A ribbon that is loaded or held has one: that name if its curvatures differ by no more than
+        1e-6 thickness/width along S and eps by no more than 1e-9, else "curved".
     resolved : bool
         False if this stands for several equilibria closer than 1e-6 in K/eta. Where those of a ribbon that
         varies meet is an event of the `report` instead.
@@ -105,6 +124,9 @@ class State:
         How it was found.
     S : (n,) array
         The nodes.
+    load_potential : float
+        Minus the work of the dead loads on the displacement from the origin, a mean over S as the energy: the
+        sum of both is stationary.
 
     Notes
     -----
@@ -119,15 +141,16 @@ class State:
     resolved: bool
     report: Report
     S: Array
+    load_potential: float = 0.0
 
     def __repr__(self) -> str:
-        columns = zip(("eps", "K1", "K2", "K3"), self.course.strains(self.S).T, strict=True)
+        columns = zip(("eps", "K1", "K2", "K3"), shown_strains(self).T, strict=True)
         strain = ", ".join(f"{name}={_range(values)}" for name, values in columns)
         return f"State({self.phase}, stable={self.stable}, {strain})"
 
     @property
     def uniform(self) -> bool:
-        """Whether the ribbon and its growth, and so the state, are the same all along."""
+        """Whether the strains are the same all along; `phases` says within which tolerances."""
         return self.course.uniform
 
     @property
@@ -141,18 +164,21 @@ class State:
         return self.phases[0] if len(self.phases) == 1 else "curved"
 
     @property
-    def stable(self) -> bool:
-        """Whether the energy is a strict local minimum: no negative eigenvalue of the section's Hessian."""
-        return self.section_index == 0
+    def stable(self) -> bool | None:
+        """Whether the energy is a strict local minimum; None where that is not known, see `index`."""
+        return None if self.index is None else self.index == 0.0
 
     @property
-    def index(self) -> float:
-        """Number of unstable directions: 0, or infinite where the section itself is unstable.
+    def index(self) -> float | None:
+        """Number of unstable directions: infinite where the section itself is unstable, else 0.
 
         The law has no strain gradient, so an unstable section is unstable against arbitrarily short
-        variations.
+        variations. Of a ribbon that is loaded or held it is None where sections are stable: this version does
+        not compute the index under end conditions.
         """
-        return 0.0 if self.stable else math.inf
+        if self.section_index > 0:
+            return math.inf
+        return None if isinstance(self.course, Held) else 0.0
 
     @property
     def strains(self) -> Array:
@@ -186,14 +212,25 @@ class State:
 
     @property
     def reactions(self) -> Reactions:
-        """Forces and moments that the ends exert on the ribbon."""
-        free = Wrench(np.zeros(3), np.zeros(3))
-        return Reactions(start=free, end=free)
+        """Forces and moments that the ends exert on the ribbon, in the fixed basis."""
+        if not isinstance(self.course, Held):
+            return Reactions(*(Wrench(np.zeros(3), np.zeros(3)) for _ in range(2)))
+        force0, moment0, force1, moment1 = self.course.solution.reactions()
+        return Reactions(Wrench(force0, moment0), Wrench(force1, moment1))
 
     @property
     def section_law(self) -> SectionLaw:
-        """The full section law: it also gives the deflection where the scene's law has none."""
-        return SectionLaw.of(self.scene.ribbon, self.scene.growth)
+        """The full section law: it also gives the deflection where the scene's law has none.
+
+        An `InputError` for a `LinearLaw`, which says nothing of sections.
+        """
+        law = self.scene.section_law
+        return law if law.law == "full" else SectionLaw.of(self.scene.ribbon, self.scene.growth)
+
+    @property
+    def relaxed(self) -> SectionLaw | LinearLaw:
+        """What gives the deflection of the sections: none for a `LinearLaw`, whose sections stay plane."""
+        return self.scene.law if isinstance(self.scene.law, LinearLaw) else self.section_law
 
     @cached_property
     def _nodes(self) -> Sections:
@@ -205,7 +242,8 @@ class State:
     def at(self, S: ArrayLike) -> Sections:
         """Return the state at any S in [0, L], a number or an array of any shape and order.
 
-        Of a uniform ribbon it is exact; of one that varies strains and poses are as accurate as at the nodes.
+        Of a uniform ribbon without load it is exact; else all is as accurate as at the nodes. At a point load
+        forces and strains are those to its right.
         """
         length = self.scene.ribbon.length_ratio
         expected = f"numbers in [0, {length:g}], the length over the width"
@@ -214,34 +252,25 @@ class State:
         if np.any((points < -END * length) | (points > (1.0 + END) * length)):
             raise InputError("S", S, expected)
         points = np.clip(points, 0.0, length)
-        start = self.scene.start
-        origin = np.zeros(3) if start.position is None else np.array(start.position)
-        pose = np.array(start.quaternion)
-        places, shape = points.ravel(), points.shape
-        position, quaternion = self.course.poses(places, origin, pose)
-        quaternion = quaternion.reshape((*shape, 4))
-        return Sections(
-            S=points,
-            strains=self.course.strains(places).reshape((*shape, 4)),
-            position=position.reshape((*shape, 3)),
-            quaternion=quaternion,
-            directors=directors(quaternion),
-            force=np.zeros((*shape, 3)),
-            moment=np.zeros((*shape, 3)),
-        )
+        origin, orientation = map(np.array, pose(self.scene.start))
+        found = self.course.points(points.ravel(), origin, orientation)
+        fields = {
+            name: values.reshape((*points.shape, values.shape[1])) for name, values in found._asdict().items()
+        }
+        return Sections(S=points, directors=directors(fields["quaternion"]), **fields)
 
     def deflection(self, x: ArrayLike, derivative: int = 0) -> Array:
         """Return u1 in units of a, or an X2/a-derivative of it: x in [-1/2, 1/2], (...) -> (n, ...).
 
-        x is X2 over the width at S. For the quadratic law, an energy without a deflection, it is that of the
-        full law at the same strains.
+        x is X2 over the width at S. For the quadratic and the linear law, which are energies without a
+        deflection, it is that of the full law at the same strains; for a `LinearLaw` it is zero.
         """
-        law = self.section_law
+        law = self.relaxed
         return self._across(lambda strain, S: law.deflection(strain, x, derivative, S))
 
     def displacements(self, x: ArrayLike) -> Array:
         """Return u1, u2, u3 of the mid-surface in units of a: x (...) -> (n, ..., 3)."""
-        law = self.section_law
+        law = self.relaxed
         return self._across(lambda strain, S: law.displacements(strain, x, S))
 
     def _across(self, of: Callable[[Array, float | None], Array]) -> Array:
@@ -264,7 +293,7 @@ class State:
 
     @property
     def helix(self) -> Helix | None:
-        """The helix of the centreline, in units of the width; None if the ribbon varies."""
+        """The helix of the centreline, in units of the width; None if the strains vary."""
         ribbon = self.scene.ribbon
         return self.course.helix(ribbon.length_ratio, ribbon.thickness_ratio)
 
@@ -280,7 +309,9 @@ class State:
             position=self.position * a,
             force=self.force * unit_force,
             moment=self.moment * (unit_force * a),
+            reactions=self.reactions.scaled(unit_force, unit_force * a),
             energy=self.energy * unit_force,
+            load_potential=self.load_potential * unit_force,
             helix=None if helix is None else helix.scaled(a),
         )
 
@@ -298,6 +329,13 @@ class State:
         from .files import save
 
         save(self, path)
+
+
+def shown_strains(state: State) -> Array:
+    """Return the strains at the nodes (n, 4) for people to read: what is less than a small error is 0."""
+    error = state.report.error if state.report.error < SMALL else 0.0
+    small = np.array([error, *(error / state.scene.ribbon.length_ratio,) * 3])
+    return np.where(np.abs(state.strains) <= small, 0.0, state.strains)
 
 
 def _range(values: Array) -> str:

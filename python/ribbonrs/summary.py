@@ -14,28 +14,32 @@ from rich.table import Table
 from rich.text import Text
 
 from .arrays import Array
+from .course import Held
+from .ends import Closed
 from .helix import Helix
+from .linear import LinearLaw
+from .loads import PointLoad
 from .pieces import Pieces
 from .scene import Scene
-from .state import State
+from .state import State, shown_strains
 from .terms import Shape, Term
 
 __all__ = ["summary"]
 
+NOISE = 1e-12
+"""Components of reactions below this times the largest are shown as 0."""
+
 
 def summary(scene: Scene, state: State, others: list[State]) -> Group:
     """Return the summary of `state` and of the `others` that the scene allows, to be printed by rich."""
-    return Group(
-        _scene_table(scene, state), _state_table(state), *_events_table(state), *_others_table(state, others)
-    )
+    beside = _boundary_tables(state) if isinstance(state.course, Held) else _others_table(state, others)
+    return Group(_scene_table(scene, state), _state_table(state), *_events_table(state), *beside)
 
 
 def _scene_table(scene: Scene, state: State) -> Table:
     ribbon = scene.ribbon
     material = ribbon.material
     constants = ", ".join(f"{f.name} = {getattr(material, f.name):g}" for f in fields(material))
-    alike = groupby(scene.growth.terms, _grown)
-    grown = " + ".join(f"{_names([term.name for term in terms])} {told}" for told, terms in alike)
     table = Table.grid(padding=(0, 3))
     table.add_column(style="dim")
     table.add_column()
@@ -50,12 +54,59 @@ def _scene_table(scene: Scene, state: State) -> Table:
             told = f"from {np.min(values):.3g} to {np.max(values):.3g} of the above, varying along S"
             table.add_row(name, told)
     table.add_row("material", f"{type(material).__name__}, {constants}")
-    table.add_row("growth", f"{grown}; largest growth strain {scene.growth_size:.3g}")
+    table.add_row("growth", _growth(scene))
+    if scene.loaded:
+        for row in _held_rows(scene):
+            table.add_row(*row)
     if scene.law != "full":
-        table.add_row("law", scene.law)
+        table.add_row("law", _law(scene.law))
     table.add_row("shape", Text(_described(state), style="bold"))
     table.add_row("stability", _stability(state))
     return table
+
+
+def _growth(scene: Scene) -> str:
+    alike = groupby(scene.growth.terms, _grown)
+    grown = " + ".join(f"{_names([term.name for term in terms])} {told}" for told, terms in alike)
+    return f"{grown}; largest growth strain {scene.growth_size:.3g}" if grown else "none"
+
+
+def _held_rows(scene: Scene) -> Iterator[tuple[str, str]]:
+    """How the ribbon is held and loaded."""
+    closed = isinstance(scene.start, Closed)
+    for name, end in (("start", scene.start), *(() if closed else (("end", scene.end),))):
+        given = {f.name: getattr(end, f.name) for f in fields(end)}
+        said = ", ".join(f"{key} {_told(value)}" for key, value in given.items() if _says(value))
+        yield name, f"{type(end).__name__.lower()}{', ' if said else ''}{said}"
+    if any(scene.gravity):
+        yield "gravity", f"{_told(scene.gravity)} per unit S"
+    for load in scene.loads:
+        where = f"at S = {load.S:g}" if isinstance(load, PointLoad) else "per unit S"
+        parts = ", ".join(
+            f"{key} {_told(v)}" for key in ("force", "moment") if _says(v := getattr(load, key))
+        )
+        yield "load", f"{parts or 'zero'} {where}"
+
+
+def _says(value: object) -> bool:
+    """Whether a value is not a default."""
+    return any(entry != 0.0 for entry in value) if isinstance(value, tuple) else value not in (None, 0.0)
+
+
+def _told(value: object) -> str:
+    """A number or a vector; one of functions is only said to vary."""
+    if isinstance(value, float | int):
+        return f"{value:g}"
+    if isinstance(value, tuple) and all(isinstance(entry, float) for entry in value):
+        return f"({', '.join(map(_told, value))})"
+    return "varying"
+
+
+def _law(law: str | LinearLaw) -> str:
+    if isinstance(law, str):
+        return law
+    stiffnesses = {f.name: getattr(law, f.name) for f in fields(law)}
+    return ", ".join(f"{name} = {_told(value)}" for name, value in stiffnesses.items() if _says(value))
 
 
 def _names(names: list[str]) -> str:
@@ -101,6 +152,8 @@ def _handed(state: State) -> str:
 
 
 def _stability(state: State) -> str:
+    if state.stable is None:
+        return "not known under these ends and loads; each section is stable (section_index 0)"
     if state.stable:
         return "stable (section_index 0)"
     return f"unstable (section_index {state.section_index})"
@@ -119,11 +172,10 @@ def _state_table(state: State) -> Table:
 
 def _state_rows(state: State) -> Iterator[tuple[str, str, str, str]]:
     names = ("axial strain", "curvature in the plane", "curvature out of the plane", "twist")
-    physical = state.physical
-    for name, symbol, values, units in zip(
-        names, ("eps", "K1", "K2", "K3"), state.strains.T, physical.strains.T, strict=True
-    ):
-        yield name, symbol, _range(values), _range(units)
+    physical, a = state.physical, state.scene.ribbon.width
+    symbols, units = ("eps", "K1", "K2", "K3"), (1.0, a, a, a)
+    for name, symbol, values, unit in zip(names, symbols, shown_strains(state).T, units, strict=True):
+        yield name, symbol, _range(values), _range(values / unit)
     if state.helix is not None and physical.helix is not None:
         for name, symbol, field in (
             ("radius of the helix", "R", "radius"),
@@ -132,6 +184,9 @@ def _state_rows(state: State) -> Iterator[tuple[str, str, str, str]]:
             yield name, symbol, _length(state.helix, field), _length(physical.helix, field)
         yield "turns", "", f"{state.helix.turns:.4g}", ""
     yield "energy per length", "Pi", _figures(state.energy), _figures(physical.energy)
+    if isinstance(state.course, Held):
+        potential = _figures(state.load_potential), _figures(physical.load_potential)
+        yield "potential of the loads", "", *potential
 
 
 def _length(helix: Helix, field: str) -> str:
@@ -162,6 +217,27 @@ def _events_table(state: State) -> Iterator[RenderableType]:
         values = (f"{value + 0.0:.4g}" for value in (*event.before[2:], *event.after[2:]))
         table.add_row(f"{event.S:.6g}", event.kind, *values)
     yield table
+
+
+def _boundary_tables(state: State) -> Iterator[RenderableType]:
+    """What the ends exert on the ribbon, and how well it is known."""
+    title = "reactions on E1, E2, E3: dimensionless, in your units"
+    table = Table(title=title, title_justify="left", box=None, pad_edge=False, show_header=False)
+    table.add_column(no_wrap=True)
+    for _ in range(6):
+        table.add_column(justify="right", no_wrap=True)
+    for name in ("start", "end"):
+        for kind in ("force", "moment"):
+            both = [getattr(getattr(r, name), kind) for r in (state.reactions, state.physical.reactions)]
+            small = NOISE * max(np.max(np.abs(getattr(w, kind))) for w in vars(state.reactions).values())
+            rows = (np.where(np.abs(both[0]) <= small, 0.0, values) for values in both)
+            table.add_row(f"{kind} of the {name}", *(f"{v + 0.0:.4g}" for row in rows for v in row))
+    yield table
+    report = state.report
+    yield Text(
+        f"{report.status} on {report.elements} elements of degree {report.degree}, "
+        f"{report.iterations} Newton steps; error about {report.error:.1e}, residual {report.residual:.1e}"
+    )
 
 
 def _others_table(state: State, others: list[State]) -> Iterator[RenderableType]:

@@ -62,7 +62,7 @@ def section(state: State, S: Array, x: Array) -> tuple[Array, Array]:
 
     Arrays (n, nx, 3), or (1, nx, 3) if all are alike, components on d1, d2, d3.
     """
-    law, ribbon = state.section_law, state.scene.ribbon
+    law, ribbon = state.relaxed, state.scene.ribbon
     sections = state.course.sections(S)
     count, places = len(sections), S[: len(sections), None]
     middle = np.reshape([law.displacements(strain, x, at) for strain, at in sections], (count, x.size, 3))

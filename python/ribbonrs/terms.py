@@ -199,6 +199,18 @@ class Growth:
                     sizes.append(lever * _largest_sum(amplitudes, profiles))
         return float(np.max(sizes))  # NaN, where huge terms cancel, is the largest
 
+    def axial(self, length: float) -> float:
+        """Return the largest mean of gamma33 over the width, along a ribbon of `length` over its width.
+
+        A ribbon without load is not strained more along its centreline. Accurate to 2 %, as `size`.
+        """
+        parts = self._of("gamma33")
+        if not parts:
+            return 0.0
+        amplitudes = _amplitudes([term.along(length) for term, _ in parts], length)
+        means = np.array([_mean(shape) for _, shape in parts])
+        return float(np.max(means @ amplitudes))
+
     def _of(self, key: str) -> list[tuple[Term, Shape]]:
         """The terms with this field, and its shape in each."""
         return [(term, shape) for term in self.terms for name, shape in term.shape if name == key]
@@ -214,6 +226,14 @@ def _profile(shape: Shape, x: Array, left: bool = False) -> Array:
     if isinstance(shape, Pieces):
         return shape.evaluate(x, left)
     return np.asarray(polyval(x, np.array(shape)), dtype=np.float64)
+
+
+def _mean(shape: Shape) -> float:
+    """The mean of a field over the width."""
+    if isinstance(shape, Pieces):
+        widths = np.diff(shape.breaks)
+        return float(sum(width * c[0] for width, c in zip(widths, shape.coefficients, strict=True)))
+    return sum(c * 0.5**k / (k + 1) for k, c in enumerate(shape) if k % 2 == 0)
 
 
 def _bound(function: Shape | Amplitude) -> float:

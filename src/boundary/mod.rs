@@ -38,9 +38,11 @@ mod system;
 
 pub use ends::{At, End, Hold};
 pub use gauss::MAX_DEGREE;
-pub use iterate::{Iterate, Layout};
+pub use iterate::{Correction, Iterate, Layout};
 pub use law::{Law, Rod};
-pub use path::Guess;
+pub use mesh::Mesh;
+pub use path::{Guess, Known, Path};
 pub use problem::{LineLoad, PointLoad, Problem};
 pub use solution::{SectionState, Solution, Wrench};
 pub use solve::{DEGREE, Report, Settings, Status};
+pub use system::{Failure, System, Targets};

@@ -7,6 +7,7 @@ import json
 import math
 import os
 import sys
+import warnings
 from pathlib import Path
 
 import pytest
@@ -14,6 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from ribbonrs.cli import main
 from ribbonrs.growth import FIELDS
+from ribbonrs.scenefile import read
 
 SCENES = [
     {
@@ -86,6 +88,38 @@ VARYING = [
     },
 ]
 
+LOADED = [
+    {
+        "gravity": [0.0, 0.0, -1e-6],
+        "ribbon": {"length": 10.0, "width": 1.0, "thickness": 0.1},
+        "growth": {"edge": 0.02},
+        "end": {"kind": "free", "force": [1e-6, 0.0, 0.0], "moment": [0.0, 1e-6, 0.0]},
+        "loads": [
+            {"kind": "point", "S": 5.0, "force": [0.0, 1e-6, 0.0]},
+            {"kind": "line", "force": {"S": [0.0, 10.0], "values": [[0.0, 0.0, 0.0], [1e-7, 0.0, 0.0]]}},
+        ],
+        "solve": {"tol": 1e-8, "degree": 4},
+    },
+    {
+        "ribbon": {"length": 10.0, "width": 1.0, "thickness": 0.1},
+        "start": {"kind": "hinged", "director": 2, "moment": 1e-6},
+        "end": {"kind": "sliding", "axis": [0.0, 0.0, 2.0], "twist_turns": 0.1, "force": -1e-6},
+        "weight": {"density": 1e-6, "g": [9.81, 0.0, 0.0]},
+        "law": {"EA": 1.0, "EI1": 0.1, "EI2": 0.001, "GJ": 0.001, "intrinsic": [0.0, 0.0, 0.1, 0.0]},
+    },
+    {
+        "law": "linear",
+        "ribbon": {"length": 10.0, "width": 1.0, "thickness": 0.1},
+        "growth": {"chiral": 0.01},
+        "start": {"kind": "closed", "link": 0.0},
+    },
+    {
+        "ribbon": {"length": 10.0, "width": 1.0, "thickness": 0.1},
+        "start": {"kind": "pinned", "moment": [0.0, 1e-6, 0.0]},
+        "end": {"kind": "clamped", "position": [0.5, 0.0, 9.0], "rotation": [0.0, 0.1, 0.0]},
+    },
+]
+
 EXTREME = [0.0, -0.0, math.inf, -math.inf, math.nan, 5e-324, 1e-160, 1e-8, 1e8, 1e160, sys.float_info.max]
 junk = st.one_of(
     st.sampled_from(EXTREME),
@@ -94,7 +128,7 @@ junk = st.one_of(
     st.sampled_from([10**400, -(10**5000), 2**63]),
     st.booleans(),
     st.text(st.characters(codec="utf-8", exclude_characters="/"), max_size=8),
-    st.sampled_from(["clamped", "free", "isotropic", "quadratic", "edge", "x" * 5000]),
+    st.sampled_from(["clamped", "free", "pinned", "isotropic", "quadratic", "linear", "edge", "x" * 5000]),
     st.lists(st.floats(-1, 1), max_size=40),
     st.lists(st.lists(st.integers(0, 3), max_size=2), max_size=3),
     st.dictionaries(st.text(max_size=3), st.floats(), max_size=2),
@@ -142,9 +176,9 @@ def places(value, path=()):
 
 
 @st.composite
-def mutated(draw):
+def mutated(draw, scenes=SCENES + VARYING):
     """A valid scene with one to three entries deleted, renamed, replaced, wrapped or moved."""
-    scene = copy.deepcopy(draw(st.sampled_from(SCENES + VARYING)))
+    scene = copy.deepcopy(draw(st.sampled_from(scenes)))
     for _ in range(draw(st.integers(1, 3))):
         *path, key = draw(st.sampled_from(list(places(scene)) or [("growth",)]))
         parent = scene
@@ -165,9 +199,9 @@ def mutated(draw):
 
 
 @st.composite
-def extreme(draw):
+def extreme(draw, scenes=SCENES + VARYING):
     """A valid scene whose numbers are any number."""
-    scene = copy.deepcopy(draw(st.sampled_from(SCENES + VARYING)))
+    scene = copy.deepcopy(draw(st.sampled_from(scenes)))
     size = draw(st.sampled_from([1.0, 1e3, 1e300]))
     number = st.one_of(st.floats(-size, size), st.sampled_from(EXTREME))
     for *path, key in list(places(scene)):
@@ -273,8 +307,15 @@ def nested(draw):
     return value.encode()
 
 
+def is_loaded():
+    """Whether the scene, which is sound, is for the boundary-value solver."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return read("scene.toml").scene.loaded
+
+
 def check(content):
-    """Run a scene: 0, or 2 and one line, or 1 where the quadratic law has no stable state."""
+    """Run a scene: 0, or 2 and one line, or 1 where nothing is stable or a loaded ribbon is not solved."""
     Path("scene.toml").write_bytes(content)
     with contextlib.redirect_stdout(io.StringIO()) as out, contextlib.redirect_stderr(io.StringIO()) as err:
         status = main(["run", "scene.toml"])
@@ -287,6 +328,8 @@ def check(content):
     if status == 0:
         assert lines == []
         assert "nan" not in out.getvalue()
+    elif status == 1 and is_loaded():
+        assert "; try " in lines[0]
     elif status == 1:
         assert b"quadratic" in content
         assert "equilibria is stable" in lines[0]
@@ -302,6 +345,23 @@ def check(content):
 @pytest.mark.parametrize("scene", SCENES, ids=["helix", "profile", "quadratic", "saddle", "pieces"])
 def test_whole_scenes_run(scene):
     assert check(document(scene)) == 0
+
+
+@pytest.mark.parametrize("scene", LOADED, ids=["cantilever", "slide", "ring", "arch"])
+def test_whole_loaded_scenes_run(scene):
+    assert check(document(scene)) == 0
+
+
+@settings(max_examples=300)
+@given(mutated(LOADED))
+def test_mutated_loaded_scenes(content):
+    check(content)
+
+
+@settings(max_examples=200)
+@given(extreme(LOADED))
+def test_extreme_loads(content):
+    check(content)
 
 
 @settings(max_examples=2000)

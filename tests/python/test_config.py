@@ -187,16 +187,20 @@ LEAF = rb.Ribbon(10.0, 1.0, 0.1)
     [
         ("ribbon", {"ribbon": 3}),
         ("growth", {"growth": 0}),
-        ("growth", {"growth": None}),
-        ("start", {"start": rb.Free()}),
-        ("end", {"end": rb.Clamped()}),
-        ("end.force", {"end": rb.Free(force=(0.0, 0.0, 1e-300))}),
-        ("end.moment", {"end": rb.Free(moment=(0.0, 1.0, 0.0))}),
-        ("law", {"law": "linear"}),
+        ("start", {"start": "clamped"}),
+        ("end", {"end": LEAF}),
+        ("end", {"end": rb.Closed()}),
+        ("gravity", {"gravity": (0.0, 1.0)}),
+        ("gravity[1]", {"gravity": (0.0, math.nan, 0.0)}),
+        ("gravity[2]", {"gravity": (0.0, 0.0, 1e61)}),
+        ("loads", {"loads": rb.PointLoad(1.0)}),
+        ("loads[1]", {"loads": [rb.PointLoad(1.0), (0.0, 0.0, 1.0)]}),
+        ("law", {"law": "Linear"}),
+        ("law", {"law": None}),
         ("law", {"law": ["full"]}),
     ],
 )
-def test_scene_refuses_what_it_cannot_solve(field, arguments):
+def test_scene_refuses_what_is_none_of_its_parts(field, arguments):
     refuses(field, lambda: rb.Scene(**{"ribbon": LEAF, "growth": rb.growth.edge(0.01), **arguments}))
 
 
@@ -220,7 +224,8 @@ def test_warning_points_at_the_caller():
 
 def test_ribbon_and_clamp_refuse_what_coordinates_cannot_resolve():
     refuses("ribbon.length", lambda: rb.Ribbon(1.1e8, 1.0, 0.1))
-    refuses("clamped.position", lambda: rb.Clamped(position=(0.0, -1.1e8, 0.0)))
+    for kind, end in {"clamped": rb.Clamped, "pinned": rb.Pinned, "hinged": rb.Hinged}.items():
+        refuses(f"{kind}.position", lambda end=end: end(position=(0.0, -1.1e8, 0.0)))
     rb.Clamped(position=(1e8, 0.0, 0.0))
 
 

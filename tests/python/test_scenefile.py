@@ -68,7 +68,10 @@ def test_documented_file_has_every_key_and_is_read(job):
     known = [*vars(scenefile).values(), *vars(growthtable).values()]
     tables = [name for name in known if isinstance(name, type) and hasattr(name, "model_fields")]
     for key in {key for table in tables for key in table.model_fields}:
-        assert key in block
+        assert key in text
+    other = job(RIBBON + text.split("```toml\n")[2].split("```")[0]).scene
+    assert other.gravity == rb.weight(other.ribbon, 1000.0, (0.0, 0.0, -9.81))
+    assert other.law == rb.LinearLaw(EA=1.0, EI1=0.0833, EI2=8.33e-4, GJ=1.11e-3, intrinsic=(0, 0, 0.1, 0))
 
 
 @pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
@@ -83,6 +86,7 @@ def test_tables_left_out_have_the_defaults_of_python(job):
     read = job(SCENE)
     assert read.scene == rb.Scene(rb.Ribbon(10.0, 1.0, 0.1), rb.growth.edge(0.06))
     assert read.outputs == ()
+    assert read.options == {}
     assert not read.has_trace
 
 
@@ -194,6 +198,69 @@ def test_start_end_and_law(job):
     assert scene.law == "quadratic"
 
 
+@pytest.mark.parametrize(
+    ("text", "end"),
+    [
+        ('kind = "clamped"\ntwist_turns = 2', rb.Clamped(twist_turns=2.0)),
+        ('kind = "free"\nforce = [0, 0, -1e-5]', rb.Free(force=(0, 0, -1e-5))),
+        ('kind = "pinned"\nposition = [0, 0, 9]\nmoment = [0, 1, 0]', rb.Pinned((0, 0, 9), (0, 1, 0))),
+        ('kind = "hinged"\ndirector = 1\nposition = [0, 0, 9]\nmoment = 2', rb.Hinged(1, (0, 0, 9), 2)),
+        (
+            'kind = "sliding"\naxis = [1, 0, 1]\nrotation = [0, 1, 0]\ntwist_turns = 1\nforce = 2',
+            rb.Sliding((1, 0, 1), (0, 1, 0), 1, 2),
+        ),
+    ],
+)
+def test_ends(job, text, end):
+    assert job(SCENE + "[end]\n" + text).scene.end == end
+    held = (
+        SCENE
+        + '[end]\nkind = "clamped"\nposition = [0, 0, 5]\n[start]\n'
+        + text.replace("[0, 0, 9]", "[0, 0, 1]")
+    )
+    start = job(held).scene.start
+    assert type(start) is type(end)
+
+
+def test_closed(job):
+    assert job(SCENE + '[start]\nkind = "closed"\nlink = 1.5').scene.start == rb.Closed(1.5)
+
+
+def test_loads_gravity_law_and_settings(job):
+    text = """
+    [[loads]]
+    kind = "point"
+    S = 2
+    force = [1, 2, 3]
+    [[loads]]
+    kind = "line"
+    force = [0, 0, 1]
+    moment = {S = [0, 5, 5, 10], values = [[0, 0, 0], [1, 2, 3], [0, 0, 0], [0, 0, 1]]}
+    [solve]
+    tol = 1e-8
+    degree = 3
+    """
+    read = job("gravity = [0, 0, -1]\n" + 'law = "linear"\n' + SCENE + text)
+    moment = ([0, 5, 5, 10], [[0, 0, 0], [1, 2, 3], [0, 0, 0], [0, 0, 1]])
+    loads = (rb.PointLoad(2.0, (1, 2, 3)), rb.LineLoad((0, 0, 1), moment))
+    assert read.scene == rb.Scene(
+        rb.Ribbon(10.0, 1.0, 0.1), rb.growth.edge(0.06), gravity=(0, 0, -1), loads=loads, law="linear"
+    )
+    assert read.options == {"tol": 1e-8, "degree": 3}
+    single = job(SCENE + '[loads]\nkind = "point"\nS = 2').scene
+    assert single.loads == (rb.PointLoad(2.0),)
+
+
+def test_no_growth(job):
+    assert job(RIBBON).scene == rb.Scene(rb.Ribbon(10.0, 1.0, 0.1))
+
+
+def test_a_rod(job):
+    text = "[law]\nEI1 = inf\nEI2 = 2\nGJ = 1\ninextensible = true\nintrinsic = [0, 0, 1, 0]"
+    law = rb.LinearLaw(EI1=math.inf, EI2=2, GJ=1, inextensible=True, intrinsic=(0, 0, 1, 0))
+    assert job(RIBBON + text).scene.law == law
+
+
 def test_windows_text(job):
     assert job(b"\xef\xbb\xbf" + SCENE.replace("\n", "\r\n").encode()).scene == job(SCENE).scene
 
@@ -209,8 +276,8 @@ def test_windows_text(job):
         ),
         (
             SCENE.replace("[growth]", "[grwoth]"),
-            "grwoth = {'edge': 0.06}: expected one of ribbon, material, growth, start, end, law, trace, "
-            "output; the nearest is growth",
+            "grwoth = {'edge': 0.06}: expected one of ribbon, material, growth, start, end, gravity, weight, "
+            "loads, law, solve, trace, output; the nearest is growth",
         ),
         (
             SCENE + '[end]\nkind = "free"\nforces = 1',
@@ -238,12 +305,11 @@ def test_windows_text(job):
             "growth.csv.file = 'leaf.csv': expected one of path, name, width, breaks, spline; the nearest",
         ),
         # missing keys and tables
-        (RIBBON, "growth is missing: expected a table"),
         ("", "ribbon is missing: expected a table"),
         (SCENE.replace("width = 1.0\n", ""), "ribbon.width is missing: expected a value"),
         (
             SCENE + "[start]\nposition = [0, 0, 0]",
-            "start.kind is missing: expected clamped, all that this version solves",
+            "start.kind is missing: expected one of clamped, free, pinned, hinged, sliding, closed",
         ),
         (SCENE + '[material]\nkind = "mooney-rivlin"\nc1 = 1', "material.c2 is missing: expected a value"),
         (SCENE + '[trace]\nparameter = "growth.edge.amplitude"', "trace.span is missing: expected a value"),
@@ -271,8 +337,8 @@ def test_windows_text(job):
         (SCENE + "profile = 1", "growth.profile[0] = 1: expected a table"),
         (SCENE + "[growth.edge]", "scene file = 'scene.toml': expected TOML, not: "),
         (
-            SCENE + '[end]\nkind = "pinned"',
-            "end.kind = 'pinned': expected free, all that this version solves",
+            SCENE + '[end]\nkind = "closed"',
+            "end.kind = 'closed': expected one of clamped, free, pinned, hinged, sliding",
         ),
         (
             SCENE + "[material]\nkind = []",
@@ -343,7 +409,7 @@ def test_windows_text(job):
             SCENE + '[material]\nkind = "isotropic"\nnu = 0.6',
             "material.nu = 0.6: expected a number in (-1, 0.5]",
         ),
-        ('law = "Full"\n' + SCENE, "law = 'Full': expected one of full, quadratic"),
+        ('law = "Full"\n' + SCENE, "law = 'Full': expected one of full, quadratic, linear"),
         # ends know which they are
         (
             SCENE + '[start]\nkind = "clamped"\nrotation = [1, 1, 0, 0]',
@@ -354,11 +420,80 @@ def test_windows_text(job):
             "end.force[1] = nan: expected a finite number",
         ),
         (
-            SCENE + '[end]\nkind = "free"\nmoment = [0, 1, 0]',
-            "end.moment = (0.0, 1.0, 0.0): expected zero: this",
+            SCENE + '[end]\nkind = "hinged"\ndirector = 4',
+            "end.director = 4: expected a whole number from 1 to 3",
         ),
-        (SCENE + '[end]\nkind = "clamped"', "end = Clamped("),
+        (
+            SCENE + '[end]\nkind = "sliding"\naxis = [0, 0, 0]',
+            "end.axis = [0, 0, 0]: expected a direction",
+        ),
+        (
+            SCENE + '[start]\nkind = "closed"\nlink = 0.25',
+            "start.link = 0.25: expected a multiple of 1/2",
+        ),
+        (
+            SCENE + '[start]\nkind = "closed"\n[end]\nkind = "clamped"',
+            "end = Clamped(position=None, rotation=None, twist_turns=0.0): expected nothing: a closed ribbon",
+        ),
+        (
+            SCENE + '[end]\nkind = "pinned"\nposition = [0, 0, 12]',
+            "end.position = (0.0, 0.0, 12.0): expected at most 11.2 from the start, which is as far as the",
+        ),
         (SCENE + '[start]\nkind = "free"', "start = Free("),
+        # loads
+        (SCENE + "[[loads]]", "loads[0].kind is missing: expected one of point, line"),
+        (SCENE + '[loads]\nkind = "edge"', "loads[0].kind = 'edge': expected one of point, line"),
+        ("loads = 3\n" + SCENE, "loads[0] = 3: expected a table"),
+        (SCENE + '[[loads]]\nkind = "point"', "loads[0].S is missing: expected a value"),
+        (
+            SCENE + '[[loads]]\nkind = "line"\n[[loads]]\nkind = "point"\nforces = 1',
+            "loads[1].forces = 1: expected one of kind, S, force, moment; the nearest is force",
+        ),
+        (
+            SCENE + '[[loads]]\nkind = "point"\nS = 10.0',
+            "loads[0].S = 10.0: expected a number inside (0, 10); the ends take Free(force=, moment=)",
+        ),
+        (
+            SCENE + '[[loads]]\nkind = "point"\nS = 1\nforce = [0, nan, 0]',
+            "loads[0].force[1] = nan: expected a finite number",
+        ),
+        (
+            SCENE + '[[loads]]\nkind = "line"\nforce = {S = [0, 10], values = [0, 1]}',
+            "loads[0].force.values.shape = (2,): expected samples (S, values), S a list (m,) of numbers and",
+        ),
+        (
+            SCENE + '[[loads]]\nkind = "line"\nforce = {S = [0, 9], values = [[0, 0, 1], [0, 0, 2]]}',
+            "loads[0].force = (0.0, 9.0): expected samples from S = 0 to S = 10.0",
+        ),
+        (
+            SCENE + '[[loads]]\nkind = "line"\nforce = {x = [0, 9], values = [1, 2]}',
+            "loads[0].force.x = [0, 9]: expected one of S, values; the nearest is ",
+        ),
+        ("gravity = 9.81\n" + SCENE, "gravity = 9.81: expected three finite numbers"),
+        ("gravity = [0, 0, inf]\n" + SCENE, "gravity[2] = inf: expected a finite number"),
+        (
+            "gravity = [0, 0, 1]\n" + SCENE + "[weight]\ndensity = 1\ng = [0, 0, 1]",
+            "gravity = [0, 0, 1]: expected none beside the table [weight]",
+        ),
+        (SCENE + "[weight]\ndensity = 1", "weight.g is missing: expected a value"),
+        (
+            SCENE + "[weight]\ndensity = 0\ng = [0, 0, 1]",
+            "weight.density = 0: expected a positive finite number",
+        ),
+        # laws and settings
+        (RIBBON + "[law]\nEA = 1\nEI1 = 1\nEI2 = 1", "law.GJ is missing: expected a value"),
+        (RIBBON + "[law]\nEI1 = 1\nEI2 = 1\nGJ = 1", "law.EA is missing: expected the stiffness in"),
+        (
+            RIBBON + "[law]\nEI = 1\nEI2 = 1\nGJ = 1",
+            "law.EI = 1: expected one of EA, EI1, EI2, GJ, inextensible, intrinsic; the nearest is EI",
+        ),
+        (
+            SCENE + "[law]\nEA = 1\nEI1 = 1\nEI2 = 1\nGJ = 1",
+            "growth = Growth(terms=(Term(name='edge'",
+        ),
+        (SCENE + "[solve]\ntol = 1", "solve.tol = 1: expected a number in [1e-14, 1)"),
+        (SCENE + "[solve]\ndegree = 9", "solve.degree = 9: expected a whole number from 1 to 8"),
+        (SCENE + "[solve]\nn = 9", "solve.n = 9: expected one of tol, degree; the nearest is "),
         # trace
         (SCENE + "[trace]\nparameter = 1\nspan = [0, 1]", "trace.parameter = 1: expected a name, such as"),
         (

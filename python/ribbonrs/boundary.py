@@ -1,0 +1,178 @@
+"""Ribbons that are loaded or held: from a guess and the core's solution to a state."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _core
+from .arrays import Array, count, real_array
+from .check import number
+from .course import Held
+from .ends import pose
+from .errors import ConvergenceError, InputError, RibbonWarning
+from .frame import directors, integrate_frame
+from .linear import LinearLaw
+from .loads import PointLoad
+from .problem import problem_of
+from .report import Event, Report
+from .scene import Scene
+from .state import State
+
+__all__ = ["degree_of", "equilibrium", "tolerance"]
+
+METHOD = "Gauss collocation"
+
+HIGHEST = 8
+"""Highest degree of the collocation."""
+
+SAMPLES = 201
+"""Points at which a guess is handed to the core, besides its own breaks."""
+
+ADVICE = {
+    "singular": "a guess= nearer to one of the equilibria that meet here, or a slightly different load",
+    "diverged": "a smaller load, or guess= the solution for one",
+    "unresolved": "a larger tol, or growth and loads that vary less along the ribbon",
+}
+"""What to try next, by how the solve ended."""
+
+
+def tolerance(field: str, value: object) -> float:
+    """Return a tolerance of the solver."""
+    expected = "a number in [1e-14, 1)"
+    tol = number(field, value, expected)
+    if not 1e-14 <= tol < 1.0:
+        raise InputError(field, value, expected)
+    return tol
+
+
+def degree_of(field: str, value: object) -> int | None:
+    """Return a degree of the collocation; None leaves it to the core."""
+    return None if value is None else count(field, value, 1, HIGHEST)
+
+
+def equilibrium(
+    scene: Scene, guess: State | ArrayLike | None, tol: float, degree: int | None, n: int
+) -> State:
+    """Return the equilibrium of `scene` that is continued from `guess` or from zero load.
+
+    Arguments and errors as for `ribbonrs.solve`.
+    """
+    start = None if guess is None else _core_guess(scene, guess)
+    try:
+        solution = problem_of(scene).solve(tol, degree, start)
+    except ValueError as error:
+        raise InputError("scene", scene, f"one that can be solved, not: {error}") from None
+    if solution.status == "interrupted":
+        raise KeyboardInterrupt
+    if not solution.converged:
+        raise _failure(scene, solution, tol, n)
+    if solution.status == "rounding_limited":
+        message = f"tol = {tol:g} is below rounding: the error is about {solution.error:.1e}"
+        warnings.warn(message, RibbonWarning, stacklevel=4)
+    return _state(scene, solution, tol, n)
+
+
+def _core_guess(scene: Scene, guess: State | ArrayLike) -> _core._Guess:
+    """S, strains, positions, quaternions, and forces and moments in the fixed basis."""
+    length = scene.ribbon.length_ratio
+    if isinstance(guess, State):
+        reach = guess.scene.ribbon.length_ratio
+        S = np.linspace(0.0, reach, SAMPLES)
+        if isinstance(guess.course, Held):
+            S = np.union1d(S, guess.course.breaks)
+        known = guess.at(S)
+        scaled = length / reach
+        poses = scaled * known.position, known.quaternion
+        strains, resultants = known.strains / [1.0, scaled, scaled, scaled], (known.force, known.moment)
+        S = scaled * S
+    else:
+        strains = _strains(guess)
+        S = np.linspace(0.0, length, len(strains))
+        poses = integrate_frame(S, strains, *pose(scene.start))
+        n3, *m = _resultants(scene, strains, S).T
+        resultants = np.outer(n3, [0.0, 0.0, 1.0]), np.stack(m, axis=1)
+    axes = directors(poses[1])
+    force, moment = (np.einsum("ni,nij->nj", components, axes) for components in resultants)
+    return S, strains, *poses, force, moment
+
+
+def _strains(guess: ArrayLike) -> Array:
+    """Strains (n, 4) at equally spaced nodes; one row is the same everywhere."""
+    expected = "a State, eps, K1, K2, K3, or an array (n, 4) of them at equally spaced S, n >= 2"
+    strains = real_array("guess", guess, expected)
+    if strains.shape == (4,):
+        return np.tile(strains, (SAMPLES, 1))
+    if strains.ndim != 2 or strains.shape[0] < 2 or strains.shape[1] != 4:
+        raise InputError("guess.shape", strains.shape, expected)
+    return strains
+
+
+def _resultants(scene: Scene, strains: Array, S: Array) -> Array:
+    """n3, m1, m2, m3 (n, 4) of strains (n, 4), near enough for a guess."""
+    if isinstance(scene.law, LinearLaw):
+        return scene.law.gradient(strains)
+    return scene.section_law.gradient(strains, S)
+
+
+def _state(scene: Scene, solution: _core.BoundarySolution, tol: float, n: int) -> State:
+    length = scene.ribbon.length_ratio
+    nodes = np.linspace(0.0, length, n)
+    nodes.setflags(write=False)
+    course = Held(solution, scene)
+    return State(
+        scene=scene,
+        course=course,
+        energy=solution.energy / length,
+        section_index=solution.section_index,
+        phases=(course.phase,),
+        resolved=True,
+        report=_report(scene, solution, tol),
+        S=nodes,
+        load_potential=solution.load_potential / length,
+    )
+
+
+def _report(scene: Scene, solution: _core.BoundarySolution, tol: float) -> Report:
+    return Report(
+        method=METHOD,
+        equilibria=1,
+        unresolved=0,
+        gradient_norm=solution.residual,
+        events=_events(scene, solution),
+        elements=solution.breaks.size - 1,
+        tolerance=tol,
+        status=solution.status,
+        degree=solution.degree,
+        error=solution.error,
+        residual=solution.residual,
+        condition=solution.condition,
+        iterations=solution.iterations,
+        factorisations=solution.factorisations,
+        meshes=solution.meshes,
+        load_steps=solution.load_steps,
+        residuals=tuple(solution.residuals),
+    )
+
+
+def _events(scene: Scene, solution: _core.BoundarySolution) -> tuple[Event, ...]:
+    """The point loads, with the strains on both sides."""
+    places = np.unique([load.S for load in scene.loads if isinstance(load, PointLoad) and load.acts])
+    if not places.size:
+        return ()
+    before, after = (solution.at(S)[0].tolist() for S in (np.nextafter(places, 0.0), places))
+    return tuple(
+        Event(S, "point load", tuple(b), tuple(a))
+        for S, b, a in zip(places.tolist(), before, after, strict=True)
+    )
+
+
+def _failure(scene: Scene, solution: _core.BoundarySolution, tol: float, n: int) -> ConvergenceError:
+    """The error that says how far it went and what to try."""
+    state = _state(scene, solution, tol, n) if solution.fraction > 0.0 else None
+    iterate = solution.at(np.linspace(0.0, scene.ribbon.length_ratio, n))[0]
+    advice = ADVICE.get(solution.status, ADVICE["diverged"])
+    residuals = tuple(solution.residuals)
+    return ConvergenceError(solution.reason, iterate, residuals, advice, state, solution.fraction)

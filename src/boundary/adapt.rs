@@ -4,12 +4,14 @@
 //! the factorised equations make of all defects is the global error, with its sign, at every node.
 
 use super::ends::half_angle;
+use super::gauss::Gauss;
 use super::iterate::{Correction, Iterate, strain_size};
 use super::mesh::Mesh;
 use super::problem::Problem;
 use super::step::Stepper;
 use super::system::System;
 use crate::InvalidInput;
+use crate::section::Strain;
 
 /// The estimated error.
 #[derive(Clone, Debug)]
@@ -23,13 +25,18 @@ pub struct Estimate {
 /// The defect that stands for that of an element whose half steps cannot be solved for.
 const UNKNOWN: f64 = 1e-2;
 
-/// Estimates the error of `x`, at which `system` was linearised.
+/// Estimates the error of `x`, at which `system` was linearised, with the law violated by `offset` at the stages.
 ///
 /// # Errors
 /// Where a section is refused.
-pub fn estimate(system: &mut System<'_, '_>, x: &Iterate) -> Result<Estimate, InvalidInput> {
+pub fn estimate(
+    system: &mut System<'_, '_>,
+    x: &Iterate,
+    offset: &[Strain],
+) -> Result<Estimate, InvalidInput> {
     let mesh = system.mesh;
     let mut stepper = Stepper::new(mesh.problem, mesh.gauss)?;
+    let degree = mesh.gauss.degree;
     let factor = 1.0 / (1.0 - 0.25_f64.powi(mesh.gauss.degree as i32));
     let mut gaps = Vec::with_capacity(mesh.elements());
     let mut sizes = Vec::with_capacity(mesh.elements());
@@ -37,7 +44,13 @@ pub fn estimate(system: &mut System<'_, '_>, x: &Iterate) -> Result<Estimate, In
         let (at, s, h) = (&x.nodes[i], mesh.nodes[i], mesh.length(i));
         let strain = |c: f64| x.strain(mesh, i, c);
         let (whole, _) = stepper.step(at, s, h, strain, false)?;
+        if let Some(known) = offset.get(i * degree..(i + 1) * degree) {
+            stepper.offset_by(halves(mesh.gauss, known, 0.0));
+        }
         let (middle, first) = stepper.step(at, s, 0.5 * h, |c| strain(0.5 * c), true)?;
+        if let Some(known) = offset.get(i * degree..(i + 1) * degree) {
+            stepper.offset_by(halves(mesh.gauss, known, 0.5));
+        }
         let (end, second) = stepper.step(&middle, s + 0.5 * h, 0.5 * h, |c| strain(0.5 + 0.5 * c), true)?;
         let mut gap = [0.0; 9];
         let position = (end.position - whole.position) * (factor / system.units.length);
@@ -57,6 +70,14 @@ pub fn estimate(system: &mut System<'_, '_>, x: &Iterate) -> Result<Estimate, In
         error = error.max(UNKNOWN);
     }
     Ok(Estimate { error, defects: sizes })
+}
+
+/// Strains at the stages of the half of an element that begins at `from`.
+fn halves(gauss: &Gauss, known: &[Strain], from: f64) -> impl Iterator<Item = Strain> {
+    gauss.nodes.iter().map(move |c| {
+        let basis = gauss.basis(from + 0.5 * c);
+        known.iter().zip(basis).map(|(e, l)| e * l).sum()
+    })
 }
 
 fn largest(correction: &Correction, problem: &Problem) -> f64 {
@@ -130,10 +151,9 @@ pub fn refined(mesh: &Mesh<'_>, estimate: &Estimate, tolerance: f64) -> Vec<f64>
 /// Where a section is refused.
 pub fn transferred(x: &Iterate, from: &Mesh<'_>, to: &Mesh<'_>) -> Result<Iterate, InvalidInput> {
     let mut stepper = Stepper::new(from.problem, from.gauss)?;
-    let element = |s: f64| from.nodes.partition_point(|&node| node <= s).clamp(1, from.elements()) - 1;
     let mut nodes = Vec::with_capacity(to.nodes.len());
     for &s in &to.nodes {
-        let i = element(s);
+        let i = element(from, s);
         let (start, h) = (from.nodes[i], from.length(i));
         let part = s - start;
         let known = if part == 0.0 { Some(i) } else { (s == from.nodes[i + 1]).then_some(i + 1) };
@@ -142,10 +162,23 @@ pub fn transferred(x: &Iterate, from: &Mesh<'_>, to: &Mesh<'_>) -> Result<Iterat
             None => stepper.step(&x.nodes[i], start, part, |c| x.strain(from, i, c * part / h), false)?.0,
         });
     }
+    Ok(Iterate { strains: transferred_strains(&x.strains, from, to), nodes, slack: 0.0 })
+}
+
+/// Strains at the stages of another mesh, by the polynomials through those of the first.
+#[must_use]
+pub fn transferred_strains(strains: &[Strain], from: &Mesh<'_>, to: &Mesh<'_>) -> Vec<Strain> {
+    let degree = from.gauss.degree;
     let places = (0..to.elements()).flat_map(|i| to.places(i));
-    let strains = places.map(|s| {
-        let i = element(s);
-        x.strain(from, i, (s - from.nodes[i]) / from.length(i))
-    });
-    Ok(Iterate { strains: strains.collect(), nodes, slack: 0.0 })
+    let at = |s: f64| {
+        let i = element(from, s);
+        let basis = from.gauss.basis((s - from.nodes[i]) / from.length(i));
+        strains[i * degree..(i + 1) * degree].iter().zip(basis).map(|(e, l)| e * l).sum()
+    };
+    places.map(at).collect()
+}
+
+/// The element in which `s` is, the one to the right of a node.
+fn element(mesh: &Mesh<'_>, s: f64) -> usize {
+    mesh.nodes.partition_point(|&node| node <= s).clamp(1, mesh.elements()) - 1
 }

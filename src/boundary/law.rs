@@ -145,6 +145,16 @@ impl Response<'_> {
         }
     }
 
+    /// Strains of the straight and untwisted section that no axial force stretches.
+    #[must_use]
+    pub fn straight(&self) -> Strain {
+        let eps = match &self.kind {
+            Kind::Linear(natural) => natural[0],
+            Kind::Relaxed(station) => station.section().reduction().eps,
+        };
+        Strain::new(eps, 0.0, 0.0, 0.0)
+    }
+
     /// Strains without load that are stable and of lowest energy.
     #[must_use]
     pub fn natural(&self) -> Strain {

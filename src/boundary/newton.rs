@@ -38,6 +38,9 @@ pub enum Failed {
     /// No fraction of a correction brings the iterate closer.
     #[error("Newton's method does not come closer: the last correction is {0:.1e}")]
     Stuck(f64),
+    /// It converged to a shape that is not near the last.
+    #[error("the shape jumps")]
+    Jumped,
     /// Too many.
     #[error("Newton's method is too slow: the last correction is {0:.1e}")]
     Slow(f64),

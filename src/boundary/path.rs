@@ -6,8 +6,9 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::Quaternion;
+use nalgebra::{Quaternion, Vector3};
 
+use super::adapt::{Estimate, estimate, transferred_strains};
 use super::ends::{At, End, Hold};
 use super::iterate::{Iterate, at_rest};
 use super::law::Law;
@@ -19,6 +20,8 @@ use super::system::{System, Targets};
 use crate::InvalidInput;
 use crate::equilibrium::natural_branches;
 use crate::section::Strain;
+
+type Vector = Vector3<f64>;
 
 /// A shape to start from, at places from 0 to `L`.
 #[derive(Clone, Debug)]
@@ -70,6 +73,35 @@ impl Problem {
         End { rotation, position, ..*end }
     }
 
+    /// Turns of the end against the start if they are a twist about a straight ribbon's axis.
+    fn twist(&self) -> Option<f64> {
+        let aligned = |end: &End| {
+            let tangent = super::ends::directors(&end.rotation).column(2).into_owned();
+            end.hold.holds_rotation() && (tangent - Vector::z()).norm() < 1e-9
+        };
+        self.ends.iter().all(aligned).then(|| self.ends[1].turns - self.ends[0].turns)
+    }
+
+    /// Turns that are wound up on the way from a known shape.
+    fn wound(&self, known: &Known<'_>) -> f64 {
+        let built_in = matches!(known, Known::Straight(_)) && self.twist().is_some();
+        if built_in || matches!(known, Known::Given(_)) || self.ends[1].hold == Hold::Closed {
+            return 0.0;
+        }
+        self.ends
+            .iter()
+            .filter(|end| end.hold.holds_rotation())
+            .map(|end| end.turns.abs())
+            .fold(0.0, f64::max)
+    }
+
+    /// The largest step of `t` from a known shape: none winds up more than a fifth of a turn, which would be
+    /// mistaken for less.
+    #[must_use]
+    pub fn largest_step(&self, known: &Known<'_>) -> f64 {
+        (0.2 / self.wound(known)).min(1.0)
+    }
+
     /// Elements to begin with: at least `least`, and none that turns far at these curvatures.
     #[must_use]
     pub fn first_nodes(&self, least: f64, turn: f64) -> Vec<f64> {
@@ -90,50 +122,96 @@ impl Problem {
 const LARGEST_TURN: f64 = 1.5;
 /// Rotation over the whole ribbon that an imperfection of size 1 is of.
 const IMPERFECTION: f64 = 0.2;
+/// Error of the mesh that is too large on a careful way.
+const LARGEST_ERROR: f64 = 1e-2;
+/// Radians that a section turns at most in one step: more may be another solution.
+const LARGEST_STEP_TURN: f64 = 2.0;
 /// The least step of `t`.
-const LEAST_STEP: f64 = 1.0 / 512.0;
+const LEAST_STEP: f64 = 1e-5;
 /// Solves on a way that are too many.
-const MOST_STEPS: usize = 400;
+const MOST_STEPS: usize = 100;
 
-/// A known shape as a function of `S`: its strains, whether its start or its end is where it belongs.
+/// A known shape.
+#[derive(Clone, Copy, Debug)]
 pub enum Known<'a> {
-    /// The natural shape, straight or closed, with an imperfection of this size.
+    /// The natural shape, with an imperfection of this size.
     Natural(f64),
+    /// Straight, or a closed circle, without the stress that this takes, with an imperfection of this size.
+    Straight(f64),
     /// One that is given.
     Given(&'a Guess),
 }
 
-/// The strains of the known shape at any `S`, without imperfection.
-///
-/// # Errors
-/// Where a section is refused.
-pub fn known_strains(problem: &Problem) -> Result<Box<dyn Fn(f64) -> Strain + '_>, InvalidInput> {
+type Strains<'p> = Box<dyn Fn(f64) -> Strain + 'p>;
+
+/// The strains of a straight ribbon, or of a closed circle, at any `S`.
+fn straight_strains(problem: &Problem) -> Strains<'_> {
     let length = problem.length;
-    let [start, end] = [0, 1].map(|i| problem.ends[i].hold);
-    if end == Hold::Closed {
+    if problem.ends[1].hold == Hold::Closed {
         let (k, link) = (2.0 * PI / length, problem.ends[1].turns);
-        return Ok(Box::new(move |s| {
+        return Box::new(move |s| {
             let psi = 2.0 * PI * link * s / length;
             Strain::new(0.0, k * psi.sin(), k * psi.cos(), 2.0 * PI * link / length)
-        }));
-    }
-    if start != Hold::Free && end != Hold::Free {
-        return Ok(Box::new(|_| Strain::zeros()));
-    }
-    if let (true, Law::Relaxed(law)) = (problem.law.varies(), &problem.law) {
-        return Ok(match natural_branches(law, length) {
-            Ok(branches) if !branches.is_empty() => {
-                let branch = branches.into_iter().next();
-                Box::new(move |s| branch.as_ref().map_or_else(Strain::zeros, |b| b.strain(s)))
-            }
-            _ => Box::new(|_| Strain::zeros()),
         });
     }
-    if problem.law.varies() {
-        return Ok(Box::new(|s| problem.law.at(s).map_or_else(|_| Strain::zeros(), |law| law.natural())));
+    let twist = 2.0 * PI * problem.twist().unwrap_or(0.0) / length;
+    Box::new(move |s| {
+        let straight = problem.law.at(s).map_or_else(|_| Strain::zeros(), |law| law.straight());
+        straight + Strain::new(0.0, 0.0, 0.0, twist)
+    })
+}
+
+/// The strains of the natural shape at any `S`.
+fn natural_strains(problem: &Problem) -> Result<Strains<'_>, InvalidInput> {
+    if !problem.law.varies() {
+        let natural = problem.law.at(0.0)?.natural();
+        return Ok(Box::new(move |_| natural));
     }
-    let natural = problem.law.at(0.0)?.natural();
-    Ok(Box::new(move |_| natural))
+    if let Law::Relaxed(law) = &problem.law
+        && let Some(branch) = natural_branches(law, problem.length)?.into_iter().next()
+    {
+        return Ok(Box::new(move |s| branch.strain(s)));
+    }
+    Ok(Box::new(|s| problem.law.at(s).map_or_else(|_| Strain::zeros(), |law| law.natural())))
+}
+
+impl Known<'_> {
+    /// The strains of the known shape at any `S`, without imperfection.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    pub fn strains<'s>(&'s self, problem: &'s Problem) -> Result<Strains<'s>, InvalidInput> {
+        match self {
+            Self::Straight(_) => Ok(straight_strains(problem)),
+            // Of a ribbon whose shape cannot be followed along it, the straight one will have to do.
+            Self::Natural(_) => Ok(natural_strains(problem).unwrap_or_else(|_| straight_strains(problem))),
+            Self::Given(guess) => Ok(Box::new(|s| guess.strain(s))),
+        }
+    }
+}
+
+impl Guess {
+    /// The place before which, and how far before which, `s` is.
+    fn between(&self, s: f64) -> (usize, f64) {
+        let i = self.s.partition_point(|&place| place <= s).clamp(1, self.s.len() - 1);
+        (i, (s - self.s[i - 1]) / (self.s[i] - self.s[i - 1]))
+    }
+
+    fn strain(&self, s: f64) -> Strain {
+        let (i, x) = self.between(s);
+        self.strains[i - 1].lerp(&self.strains[i], x)
+    }
+
+    fn state(&self, s: f64) -> At {
+        let (i, x) = self.between(s);
+        let (a, b) = (&self.states[i - 1], &self.states[i]);
+        At {
+            position: a.position.lerp(&b.position, x),
+            rotation: slerp(&a.rotation, &b.rotation, x),
+            force: a.force.lerp(&b.force, x),
+            about_origin: a.about_origin.lerp(&b.about_origin, x),
+        }
+    }
 }
 
 /// A slight bend and twist that favours no symmetry, positive on the whole.
@@ -150,7 +228,10 @@ impl Path {
     /// Where a section is refused.
     pub fn new(mesh: &Mesh<'_>, known: &Known<'_>) -> Result<Self, InvalidInput> {
         let mut path = match known {
-            Known::Natural(size) => Self::from_natural(mesh, *size)?,
+            Known::Natural(size) | Known::Straight(size) => {
+                let winds = mesh.problem.wound(known) > 0.0;
+                Self::at_rest(mesh, &known.strains(mesh.problem)?, *size, winds)?
+            }
             Known::Given(guess) => Self::from_guess(mesh, guess),
         };
         let count = mesh.elements();
@@ -164,11 +245,10 @@ impl Path {
         Ok(path)
     }
 
-    fn from_natural(mesh: &Mesh<'_>, size: f64) -> Result<Self, InvalidInput> {
+    fn at_rest(mesh: &Mesh<'_>, strain: &Strains<'_>, size: f64, winds: bool) -> Result<Self, InvalidInput> {
         let problem = mesh.problem;
-        let strain = known_strains(problem)?;
         let flawed = |s: f64| strain(s) + imperfection(s / problem.length, problem.length) * size;
-        let start = &problem.ends[0];
+        let start = if winds { problem.ends[0] } else { problem.goal(&problem.ends[0]) };
         let mut nodes = vec![at_rest(start.position, start.rotation)];
         let mut stepper = Stepper::new(problem, mesh.gauss)?;
         for i in 0..mesh.elements() {
@@ -179,7 +259,8 @@ impl Path {
         }
         if start.hold == Hold::Free {
             // The end is where it belongs instead.
-            let (end, last) = (&problem.ends[1], nodes[mesh.elements()]);
+            let end = if winds { problem.ends[1] } else { problem.goal(&problem.ends[1]) };
+            let last = nodes[mesh.elements()];
             let turn = end.rotation * last.rotation.conjugate();
             for node in &mut nodes {
                 let away = Quaternion::from_imag(node.position - last.position);
@@ -187,6 +268,7 @@ impl Path {
                 *node = at_rest(position, turn * node.rotation);
             }
         }
+        hang(mesh, &mut nodes);
         let places = (0..mesh.elements()).flat_map(|i| mesh.places(i));
         let strains = places.map(flawed).collect();
         Ok(Self {
@@ -194,32 +276,13 @@ impl Path {
             base: problem.ends,
             load: 0.0,
             offset: Vec::new(),
-            winds: true,
+            winds,
         })
     }
 
     fn from_guess(mesh: &Mesh<'_>, guess: &Guess) -> Self {
-        let between = |s: f64| {
-            let i = guess.s.partition_point(|&place| place <= s).clamp(1, guess.s.len() - 1);
-            let x = (s - guess.s[i - 1]) / (guess.s[i] - guess.s[i - 1]);
-            (i, x)
-        };
-        let state = |&s: &f64| {
-            let (i, x) = between(s);
-            let (a, b) = (&guess.states[i - 1], &guess.states[i]);
-            At {
-                position: a.position.lerp(&b.position, x),
-                rotation: slerp(&a.rotation, &b.rotation, x),
-                force: a.force.lerp(&b.force, x),
-                about_origin: a.about_origin.lerp(&b.about_origin, x),
-            }
-        };
-        let strain = |s: f64| {
-            let (i, x) = between(s);
-            guess.strains[i - 1].lerp(&guess.strains[i], x)
-        };
-        let nodes = mesh.nodes.iter().map(state).collect();
-        let strains = (0..mesh.elements()).flat_map(|i| mesh.places(i)).map(strain).collect();
+        let nodes = mesh.nodes.iter().map(|&s| guess.state(s)).collect();
+        let strains = (0..mesh.elements()).flat_map(|i| mesh.places(i)).map(|s| guess.strain(s)).collect();
         let x = Iterate { nodes, strains, slack: 0.0 };
         Self { x, base: mesh.problem.ends, load: 1.0, offset: Vec::new(), winds: false }
     }
@@ -250,54 +313,154 @@ impl Path {
         Targets { ends: [toward(0), toward(1)], load: self.load + t * (1.0 - self.load), offset }
     }
 
-    /// Goes the way, the first step of length `first`.
-    pub fn follow(&mut self, system: &mut System<'_, '_>, first: f64) -> Reached {
+    /// Goes on from what was reached, as far as the mesh will do.
+    pub fn follow(
+        &mut self,
+        system: &mut System<'_, '_>,
+        reached: &mut Reached,
+        stride: &mut Stride,
+    ) -> Result<Stop, InvalidInput> {
         let problem = system.mesh.problem;
-        let mut reached = Reached {
-            x: self.x.clone(),
-            fraction: 0.0,
-            steps: 0,
-            iterations: 0,
-            norms: Vec::new(),
-            failure: None,
-        };
-        self.offset.clear();
-        system.settle(&mut reached.x, self.load);
-        let mut targets = self.targets(problem, 0.0);
-        match system.evaluate(&reached.x, &targets) {
-            Ok(()) => self.offset.extend_from_slice(system.law_residual()),
-            Err(failure) => {
-                reached.failure = Some(failure.into());
-                return reached;
+        if self.offset.is_empty() {
+            system.settle(&mut reached.x, self.load);
+            let targets = self.targets(problem, 0.0);
+            match system.evaluate(&reached.x, &targets) {
+                Ok(()) => self.offset.extend_from_slice(system.law_residual()),
+                Err(failure) => {
+                    reached.failure = Some(failure.into());
+                    return Ok(Stop::Failed);
+                }
             }
         }
         let control = Control { tolerance: 1e-6, iterations: 25, least_step: 1e-2 };
-        let mut step: f64 = first;
-        while reached.fraction < 1.0 {
-            let t = if reached.fraction + 1.001 * step >= 1.0 { 1.0 } else { reached.fraction + step };
-            targets = self.targets(problem, t);
+        while reached.fraction < 1.0 || stride.again {
+            let ahead = if stride.again { 0.0 } else { stride.step };
+            let t = if reached.fraction + 1.001 * ahead >= 1.0 { 1.0 } else { reached.fraction + ahead };
+            let targets = self.targets(problem, t);
             let ended = newton(system, reached.x.clone(), &targets, &control);
             reached.steps += 1;
             reached.iterations += ended.norms.len();
-            match ended.failure {
-                None => {
-                    step *= if ended.norms.len() <= 6 { 2.0 } else { 1.0 };
-                    reached.x = ended.x;
-                    reached.fraction = t;
-                    reached.norms = ended.norms;
+            let jumped = ahead > 0.0 && largest_turn(&reached.x, &ended.x) > LARGEST_STEP_TURN;
+            let failure = ended.failure.or(jumped.then_some(Failed::Jumped));
+            let Some(failure) = failure else {
+                if !stride.again && ended.norms.len() <= 6 {
+                    stride.step = (2.0 * stride.step).min(stride.most);
                 }
-                Some(failure) => {
-                    step = 0.25 * (t - reached.fraction);
-                    if step < LEAST_STEP || reached.steps >= MOST_STEPS {
-                        reached.norms = ended.norms;
-                        reached.failure = Some(failure);
-                        return reached;
+                stride.again = false;
+                reached.x = ended.x;
+                reached.fraction = t;
+                reached.norms = ended.norms;
+                if stride.careful {
+                    let estimate = estimate(system, &reached.x, &targets.offset)?;
+                    if estimate.error > LARGEST_ERROR {
+                        stride.again = true;
+                        return Ok(Stop::Coarse(estimate));
                     }
                 }
+                continue;
+            };
+            stride.step = 0.25 * (t - reached.fraction);
+            if stride.step < LEAST_STEP || reached.steps >= MOST_STEPS {
+                reached.norms = ended.norms;
+                reached.failure = Some(failure);
+                return Ok(Stop::Failed);
             }
         }
-        reached
+        Ok(Stop::There)
     }
+
+    /// The way on another mesh.
+    pub fn transfer(&mut self, from: &Mesh<'_>, to: &Mesh<'_>) {
+        let offset = std::mem::take(&mut self.offset);
+        self.offset = transferred_strains(&offset, from, to);
+    }
+}
+
+/// How the way is gone.
+#[derive(Clone, Copy, Debug)]
+pub struct Stride {
+    /// The next step of `t`.
+    pub step: f64,
+    /// The largest.
+    pub most: f64,
+    /// Whether the error of the mesh is looked at after each step.
+    pub careful: bool,
+    /// Whether the place that was reached is solved for once more, on a new mesh.
+    pub again: bool,
+}
+
+/// Why the way is not gone on.
+#[derive(Clone, Debug)]
+pub enum Stop {
+    /// The goal is reached.
+    There,
+    /// The mesh is too coarse.
+    Coarse(Estimate),
+    /// It could not be; [`Reached::failure`] says why.
+    Failed,
+}
+
+impl Reached {
+    /// The known shape.
+    #[must_use]
+    pub fn start(path: &Path) -> Self {
+        let (x, norms) = (path.x.clone(), Vec::new());
+        Self { x, fraction: 0.0, steps: 0, iterations: 0, norms, failure: None }
+    }
+}
+
+/// Turns a shape that is free to turn about an axis to where its load is lowest.
+fn hang(mesh: &Mesh<'_>, nodes: &mut [At]) {
+    let problem = mesh.problem;
+    let [start, end] = [0, 1].map(|i| problem.ends[i].hold);
+    let (first, last) = (nodes[0].position, nodes[mesh.elements()].position);
+    let along = (last - first).try_normalize(0.0);
+    let spins = |hold: Hold, axis: &Vector| match hold {
+        Hold::Pinned => true,
+        Hold::Hinged(director) => axis[director].abs() > 1.0 - 1e-12,
+        _ => false,
+    };
+    let (axis, through) = match (start, end, along) {
+        (Hold::Hinged(director), Hold::Free, _) => (Vector::ith(director, 1.0), first),
+        (Hold::Free, Hold::Hinged(director), _) => (Vector::ith(director, 1.0), last),
+        (_, _, Some(along)) if spins(start, &along) && spins(end, &along) => (along, first),
+        _ => return,
+    };
+    // The work of all forces when the shape turns by phi is a cos phi + b sin phi.
+    let (mut a, mut b) = (0.0, 0.0);
+    let mut take = |position: &Vector, force: &Vector| {
+        let arm = position - through;
+        a += force.dot(&(arm - axis * axis.dot(&arm)));
+        b += force.dot(&axis.cross(&arm));
+    };
+    for i in 0..mesh.elements() {
+        let middle = 0.5 * (nodes[i].position + nodes[i + 1].position);
+        let (p, _) = problem.line_load(0.5 * (mesh.nodes[i] + mesh.nodes[i + 1]));
+        take(&middle, &(p * mesh.length(i)));
+        if let Some((force, _)) = mesh.points[i + 1] {
+            take(&nodes[i + 1].position, &force);
+        }
+    }
+    for (hold, end, node) in [(start, &problem.ends[0], 0), (end, &problem.ends[1], mesh.elements())] {
+        if hold == Hold::Free {
+            take(&nodes[node].position, &end.force);
+        }
+    }
+    let half = 0.5 * b.atan2(a);
+    let turn = Quaternion::from_parts(half.cos(), axis * half.sin());
+    for node in nodes {
+        let arm = Quaternion::from_imag(node.position - through);
+        *node = at_rest(through + (turn * arm * turn.conjugate()).imag(), turn * node.rotation);
+    }
+}
+
+/// Largest angle by which a node turned.
+fn largest_turn(from: &Iterate, to: &Iterate) -> f64 {
+    let angle = |(a, b): (&At, &At)| {
+        let w = b.rotation * a.rotation.conjugate();
+        2.0 * w.imag().norm().atan2(w.w.abs())
+    };
+    from.nodes.iter().zip(&to.nodes).map(angle).fold(0.0, f64::max)
 }
 
 /// The rotation between two, by the shorter way.

@@ -111,13 +111,20 @@ impl Problem {
         self.has_line_force() || self.line.moment.iter().any(acts)
     }
 
-    /// Whether the ribbon is the same everywhere and unloaded, so that a closed one may glide along itself.
+    /// Whether the ribbon is the same everywhere, unloaded, and clamped to itself, so that it may glide along itself: the
+    /// two ends at one place, turned by full or half turns about the tangent.
     #[must_use]
     pub fn glides(&self) -> bool {
-        self.ends[1].hold == Hold::Closed
-            && !self.law.varies()
-            && self.points.is_empty()
-            && !self.has_line_load()
+        let clamped = |end: &End| matches!(end.hold, Hold::Clamped | Hold::Closed);
+        let loaded = !self.points.is_empty() || self.has_line_load();
+        if self.law.varies() || loaded || !self.ends.iter().all(clamped) {
+            return false;
+        }
+        let [start, end] = [0, 1].map(|i| self.goal(&self.ends[i]));
+        let turn = start.rotation.conjugate() * end.rotation;
+        let none = |x: f64| x.abs() < 1e-9;
+        let apart = (start.position - end.position).norm() / self.length;
+        none(apart) && none(turn.i) && none(turn.j) && (none(turn.w) || none(turn.k))
     }
 
     /// Units of the unknowns: the ribbon's length, and what its soft bending stiffness resists it with.

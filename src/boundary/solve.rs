@@ -2,10 +2,11 @@
 
 use super::adapt::{Estimate, estimate, refined, transferred};
 use super::check;
+use super::ends::Hold;
 use super::iterate::{Iterate, Layout};
 use super::mesh::Mesh;
 use super::newton::{Control, newton};
-use super::path::{Guess, Known, Path, Reached, known_strains};
+use super::path::{Guess, Known, Path, Reached, Stop, Stride};
 use super::problem::Problem;
 use super::system::System;
 use crate::InvalidInput;
@@ -119,8 +120,23 @@ pub struct Solved {
     pub report: Report,
 }
 
-/// First meshes and imperfections that are tried in turn.
-const ATTEMPTS: [(usize, f64); 4] = [(1, 1.0), (4, 1.0), (4, -3.0), (16, 0.3)];
+/// A try: how much finer the first mesh is, the size of the imperfection, whether the mesh adapts on the way, and
+/// whether the way begins where it usually does not.
+struct Attempt {
+    finer: usize,
+    imperfection: f64,
+    careful: bool,
+    other: bool,
+}
+
+/// What is tried in turn.
+const ATTEMPTS: [Attempt; 5] = [
+    Attempt { finer: 1, imperfection: 1.0, careful: false, other: false },
+    Attempt { finer: 4, imperfection: 1.0, careful: true, other: false },
+    Attempt { finer: 4, imperfection: -3.0, careful: true, other: false },
+    Attempt { finer: 4, imperfection: 1.0, careful: true, other: true },
+    Attempt { finer: 8, imperfection: 0.0, careful: true, other: false },
+];
 /// Meshes that are too many.
 const MOST_MESHES: usize = 25;
 
@@ -129,23 +145,27 @@ const MOST_MESHES: usize = 25;
 /// # Errors
 /// Where a section is refused.
 pub fn solve(problem: &Problem, settings: &Settings, guess: Option<&Guess>) -> Result<Solved, InvalidInput> {
-    let turn = first_turn(problem, guess)?;
+    let held = problem.ends.iter().all(|end| end.hold != Hold::Free);
     let mut best: Option<Solved> = None;
     let mut spent = Spent::default();
-    for (finer, size) in ATTEMPTS {
-        let nodes = problem.first_nodes((finer * settings.first_elements) as f64, turn);
+    for attempt in ATTEMPTS {
+        let known = match guess {
+            Some(guess) => Known::Given(guess),
+            None if held != attempt.other => Known::Straight(attempt.imperfection),
+            None => Known::Natural(attempt.imperfection),
+        };
+        let turn = first_turn(problem, &known)?;
+        let nodes = problem.first_nodes((attempt.finer * settings.first_elements) as f64, turn);
         if nodes.len() > settings.most_elements + 1 {
             break;
         }
         let mesh = Mesh::new(problem, nodes, settings.degree)?;
-        let known = guess.map_or(Known::Natural(size), Known::Given);
-        let mut path = Path::new(&mesh, &known)?;
-        let mut system = new_system(&mesh, settings)?;
-        let reached = path.follow(&mut system, if guess.is_some() { 1.0 } else { 0.5 });
-        spent.take(&reached, &system);
-        drop(system);
+        let step = if guess.is_some() { 1.0 } else { 0.5 };
+        let most = problem.largest_step(&known);
+        let stride = Stride { step: most.min(step), most, careful: attempt.careful, again: false };
+        let (mesh, reached) = followed(settings, mesh, &known, stride, &mut spent)?;
         let solved = if reached.failure.is_none() {
-            adapted(problem, settings, mesh, reached.x, &mut spent)?
+            adapted(settings, mesh, reached.x, &mut spent)?
         } else {
             unfinished(mesh, reached, &spent)
         };
@@ -159,6 +179,44 @@ pub fn solve(problem: &Problem, settings: &Settings, guess: Option<&Guess>) -> R
     best.ok_or_else(|| InvalidInput::new("length", problem.length, "a ribbon that fewer elements resolve"))
 }
 
+/// The way from the known shape, on meshes that follow it if asked.
+fn followed<'p>(
+    settings: &Settings,
+    mut mesh: Mesh<'p>,
+    known: &Known<'_>,
+    mut stride: Stride,
+    spent: &mut Spent,
+) -> Result<(Mesh<'p>, Reached), InvalidInput> {
+    let mut path = Path::new(&mesh, known)?;
+    let mut reached = Reached::start(&path);
+    loop {
+        let mut system = new_system(&mesh, settings)?;
+        let stop = path.follow(&mut system, &mut reached, &mut stride)?;
+        spent.factorisations += system.factorisations;
+        spent.meshes += 1;
+        drop(system);
+        match stop {
+            Stop::Coarse(estimate) if mesh.elements() < MOST_ON_THE_WAY => {
+                let finer =
+                    Mesh::new(mesh.problem, refined(&mesh, &estimate, ERROR_ON_THE_WAY), settings.degree)?;
+                reached.x = transferred(&reached.x, &mesh, &finer)?;
+                path.transfer(&mesh, &finer);
+                mesh = finer;
+            }
+            _ => {
+                spent.iterations += reached.iterations;
+                spent.load_steps += reached.steps;
+                return Ok((mesh, reached));
+            }
+        }
+    }
+}
+
+/// Error that a mesh on a careful way is made for.
+const ERROR_ON_THE_WAY: f64 = 1e-3;
+/// Elements of a mesh on the way that are no longer refined.
+const MOST_ON_THE_WAY: usize = 1000;
+
 /// Work done so far.
 #[derive(Clone, Copy, Debug, Default)]
 struct Spent {
@@ -169,13 +227,6 @@ struct Spent {
 }
 
 impl Spent {
-    fn take(&mut self, reached: &Reached, system: &System<'_, '_>) {
-        self.iterations += reached.iterations;
-        self.load_steps += reached.steps;
-        self.factorisations += system.factorisations;
-        self.meshes += 1;
-    }
-
     fn report(&self, status: Status, reason: String, fraction: f64, norms: Vec<f64>) -> Report {
         Report {
             status,
@@ -201,15 +252,10 @@ fn new_system<'m, 'p>(mesh: &'m Mesh<'p>, settings: &Settings) -> Result<System<
 }
 
 /// How far the known shape turns.
-fn first_turn(problem: &Problem, guess: Option<&Guess>) -> Result<f64, InvalidInput> {
-    let rate = |e: &crate::section::Strain| e.rows(1, 3).norm();
-    let rates: Vec<f64> = if let Some(guess) = guess {
-        guess.strains.iter().map(rate).collect()
-    } else {
-        let strain = known_strains(problem)?;
-        (0..=16).map(|i| rate(&strain(problem.length * f64::from(i) / 16.0))).collect()
-    };
-    Ok(rates.into_iter().fold(0.0, f64::max) * problem.length)
+fn first_turn(problem: &Problem, known: &Known<'_>) -> Result<f64, InvalidInput> {
+    let strain = known.strains(problem)?;
+    let rate = |i: i32| strain(problem.length * f64::from(i) / 16.0).rows(1, 3).norm();
+    Ok((0..=16).map(rate).fold(0.0, f64::max) * problem.length)
 }
 
 fn unfinished(mesh: Mesh<'_>, reached: Reached, spent: &Spent) -> Solved {
@@ -227,12 +273,13 @@ fn unfinished(mesh: Mesh<'_>, reached: Reached, spent: &Spent) -> Solved {
 
 /// Meshes until the estimated error is below the tolerance.
 fn adapted<'p>(
-    problem: &'p Problem,
     settings: &Settings,
     mut mesh: Mesh<'p>,
     mut x: Iterate,
     spent: &mut Spent,
 ) -> Result<Solved, InvalidInput> {
+    let problem: &'p Problem = mesh.problem;
+    let meshes = spent.meshes;
     let mut before: Option<(f64, usize)> = None;
     let control =
         Control { tolerance: (1e-2 * settings.tolerance).max(1e-15), iterations: 25, least_step: 1e-2 };
@@ -253,7 +300,7 @@ fn adapted<'p>(
             return Ok(Solved { nodes: mesh.nodes, x, report });
         }
         x = ended.x;
-        let Estimate { error, defects } = estimate(&mut system, &x)?;
+        let Estimate { error, defects } = estimate(&mut system, &x, &[])?;
         let condition = system.condition();
         let count = mesh.elements();
         let stalled = before.is_some_and(|(e, n)| error > 0.5 * e && error < 1e-6 && count > n);
@@ -261,7 +308,10 @@ fn adapted<'p>(
             Some(Status::Converged)
         } else if stalled || (!settings.adaptive && error <= 1e-6) {
             Some(Status::RoundingLimited)
-        } else if !settings.adaptive || count >= settings.most_elements || spent.meshes >= MOST_MESHES {
+        } else if !settings.adaptive
+            || count >= settings.most_elements
+            || spent.meshes >= meshes + MOST_MESHES
+        {
             Some(Status::Unresolved)
         } else {
             None

@@ -20,6 +20,8 @@ pub struct Stepper<'p> {
     stages: Box<Stages>,
     eliminated: Eliminated,
     uniform: Option<Response<'p>>,
+    /// Offset of the law at the stages of the next steps, by fractions of an element; none if empty.
+    offset: Vec<Strain>,
 }
 
 /// Newton iterations of the stages; from the polynomial of an element two or three do.
@@ -32,7 +34,20 @@ impl<'p> Stepper<'p> {
     /// Where the section is refused.
     pub fn new(problem: &'p Problem, gauss: &'static Gauss) -> Result<Self, InvalidInput> {
         let uniform = if problem.law.varies() { None } else { Some(problem.law.at(0.0)?) };
-        Ok(Self { problem, gauss, stages: Box::default(), eliminated: Eliminated::default(), uniform })
+        Ok(Self {
+            problem,
+            gauss,
+            stages: Box::default(),
+            eliminated: Eliminated::default(),
+            uniform,
+            offset: Vec::new(),
+        })
+    }
+
+    /// Violates the law by these strains at the stages of the next step.
+    pub fn offset_by(&mut self, offset: impl Iterator<Item = Strain>) {
+        self.offset.clear();
+        self.offset.extend(offset);
     }
 
     /// From `at` over `length` from `s`, with strains that are solved for, starting from those of `guess` at the fractions
@@ -64,7 +79,7 @@ impl<'p> Stepper<'p> {
         } else {
             Vec::new()
         };
-        let span = Span { gauss, length, responses, offset: &[], load: &load };
+        let span = Span { gauss, length, responses, offset: &self.offset, load: &load };
         let entry = Entry { rotation: at.rotation, force: at.force, moment: at.moment() };
         let mut strains = [Strain::zeros(); MAX_DEGREE];
         for (strain, &c) in strains.iter_mut().zip(&gauss.nodes) {

@@ -91,9 +91,10 @@ def _core_guess(scene: Scene, guess: State | ArrayLike) -> _core._Guess:
     else:
         strains = _strains(guess)
         S = np.linspace(0.0, length, len(strains))
+        strains = _unstretched(scene, strains, S)
         poses = integrate_frame(S, strains, *pose(scene.start))
-        n3, *m = _resultants(scene, strains, S).T
-        resultants = np.outer(n3, [0.0, 0.0, 1.0]), np.stack(m, axis=1)
+        # The solver finds the forces that fit strains best.
+        return S, strains, *poses, np.empty((0, 3)), np.empty((0, 3))
     axes = directors(poses[1])
     force, moment = (np.einsum("ni,nij->nj", components, axes) for components in resultants)
     return S, strains, *poses, force, moment
@@ -110,11 +111,16 @@ def _strains(guess: ArrayLike) -> Array:
     return strains
 
 
-def _resultants(scene: Scene, strains: Array, S: Array) -> Array:
-    """n3, m1, m2, m3 (n, 4) of strains (n, 4), near enough for a guess."""
+def _unstretched(scene: Scene, strains: Array, S: Array) -> Array:
+    """Strains with the same K2 and K3, and eps and K1 such that n3 = m1 = 0: a guess is for the soft ones."""
     if isinstance(scene.law, LinearLaw):
-        return scene.law.gradient(strains)
-    return scene.section_law.gradient(strains, S)
+        eps, K1 = scene.law.intrinsic[:2]
+        return np.column_stack([np.full((S.size, 2), [eps, K1]), strains[:, 2:]])
+    law = scene.section_law
+    # The energy is quadratic in eps and K1, which do not meet.
+    gradient, hessian = law.gradient(strains, S), law.hessian(strains, S)
+    change = gradient[:, :2] / np.diagonal(hessian, axis1=1, axis2=2)[:, :2]
+    return np.column_stack([strains[:, :2] - change, strains[:, 2:]])
 
 
 def _state(scene: Scene, solution: _core.BoundarySolution, tol: float, n: int) -> State:

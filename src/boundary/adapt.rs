@@ -20,6 +20,8 @@ pub struct Estimate {
     pub error: f64,
     /// Size of the defect of each element.
     pub defects: Vec<f64>,
+    /// How fast the layers of each element decay: the root of the force times the softest compliance.
+    pub rates: Vec<f64>,
 }
 
 /// The defect that stands for that of an element whose half steps cannot be solved for.
@@ -40,6 +42,7 @@ pub fn estimate(
     let factor = 1.0 / (1.0 - 0.25_f64.powi(mesh.gauss.degree as i32));
     let mut gaps = Vec::with_capacity(mesh.elements());
     let mut sizes = Vec::with_capacity(mesh.elements());
+    let mut rates = Vec::with_capacity(mesh.elements());
     for i in 0..mesh.elements() {
         let (at, s, h) = (&x.nodes[i], mesh.nodes[i], mesh.length(i));
         let strain = |c: f64| x.strain(mesh, i, c);
@@ -63,13 +66,16 @@ pub fn estimate(
         let size = gap.iter().map(|g| g * g).sum::<f64>().sqrt();
         sizes.push(if first && second && size.is_finite() { size } else { UNKNOWN });
         gaps.push(gap);
+        let mut made = Vec::new();
+        let compliance = mesh.responses(i, &mut made)?[0].compliance;
+        rates.push((at.force.norm() * compliance.rows(1, 3).max()).sqrt());
     }
     let correction = system.correction_for(gaps);
     let mut error = largest(&correction, mesh.problem);
     if sizes.contains(&UNKNOWN) {
         error = error.max(UNKNOWN);
     }
-    Ok(Estimate { error, defects: sizes })
+    Ok(Estimate { error, defects: sizes, rates })
 }
 
 /// Strains at the stages of the half of an element that begins at `from`.
@@ -103,6 +109,8 @@ fn largest(correction: &Correction, problem: &Problem) -> f64 {
 const AIM: f64 = 0.2;
 /// By how much the number of elements may grow at once.
 const GROWTH: f64 = 4.0;
+/// Lengths of decay that an element spans at most: over many a step from its start amplifies what the ends damp.
+const LONGEST_LAYER: f64 = 4.0;
 /// Least density of elements, relative to its mean.
 const LEAST_DENSITY: f64 = 0.1;
 
@@ -122,7 +130,10 @@ pub fn refined(mesh: &Mesh<'_>, estimate: &Estimate, tolerance: f64) -> Vec<f64>
     let density: Vec<f64> = shares
         .iter()
         .enumerate()
-        .map(|(i, share)| (wanted * share / integral / mesh.length(i)).max(LEAST_DENSITY * wanted / length))
+        .map(|(i, share)| {
+            let least = (LEAST_DENSITY * wanted / length).max(estimate.rates[i] / LONGEST_LAYER);
+            (wanted * share / integral / mesh.length(i)).max(least)
+        })
         .collect();
     let mut nodes = vec![0.0];
     for pair in mesh.problem.breaks().windows(2) {
@@ -162,7 +173,7 @@ pub fn transferred(x: &Iterate, from: &Mesh<'_>, to: &Mesh<'_>) -> Result<Iterat
             None => stepper.step(&x.nodes[i], start, part, |c| x.strain(from, i, c * part / h), false)?.0,
         });
     }
-    Ok(Iterate { strains: transferred_strains(&x.strains, from, to), nodes, slack: 0.0 })
+    Ok(Iterate { strains: transferred_strains(&x.strains, from, to), nodes, slack: Default::default() })
 }
 
 /// Strains at the stages of another mesh, by the polynomials through those of the first.

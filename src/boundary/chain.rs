@@ -22,7 +22,7 @@ use nalgebra::DMatrix;
 
 use super::dense::{backward, eliminate, forward};
 
-/// A smallest singular value below this part of the next is that of gliding.
+/// Singular values below this part of the next are those of gliding and rolling.
 const GLIDING: f64 = 1e-2;
 
 /// Conditions at the start of the chain, and rows that are carried along.
@@ -49,15 +49,21 @@ struct Last {
     swaps: Vec<usize>,
 }
 
-/// A column and a row that border the last panel where the ribbon may glide along itself: the conditions at the end
-/// that follow from the others, and the change of the last node and the constants that they leave open.
+/// Columns and rows that border the last panel where a closed ribbon may glide along itself or, if it is the same in
+/// all directions, roll about itself: the conditions at the end that follow from the others, and the changes of the
+/// last node and the constants that they leave open.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Border {
-    /// How the slack enters the conditions at the end.
-    pub slack: Vec<f64>,
-    /// Change that is not made.
-    pub phase: Vec<f64>,
+    /// How each slack enters the conditions at the end.
+    pub slack: Vec<Vec<f64>>,
+    /// Changes that are not made.
+    pub phase: Vec<Vec<f64>>,
 }
+
+/// The most motions that are left open.
+pub const MOST_SLACK: usize = 2;
+/// How much the end misses along each column of a border.
+pub type Slack = [f64; MOST_SLACK];
 
 /// Changes of the states `x_i` at the nodes, and of the constants in force to the right of each node.
 #[derive(Clone, Debug, Default)]
@@ -67,7 +73,7 @@ pub struct Changes {
     /// `m` numbers a node.
     pub constants: Vec<f64>,
     /// Of the slack, if there is a border.
-    pub slack: f64,
+    pub slack: Slack,
 }
 
 impl Chain {
@@ -150,18 +156,20 @@ impl Chain {
     /// Ends with the conditions at the end, `(n + m - 6) x (n + m)`.
     pub fn finish(&mut self, conditions: &[f64], border: Option<&Border>) {
         let inner = self.n + self.m;
-        let size = inner + usize::from(border.is_some());
+        let size = inner + border.map_or(0, |border| border.slack.len());
         let mut block = Vec::with_capacity(size * size);
         let rows = self.carried.chunks_exact(inner).chain(conditions.chunks_exact(inner));
         for (i, row) in rows.enumerate() {
             block.extend_from_slice(row);
             if let Some(border) = border {
-                block.push(if i < CARRIED { 0.0 } else { border.slack[i - CARRIED] });
+                block.extend(border.slack.iter().map(|w| if i < CARRIED { 0.0 } else { w[i - CARRIED] }));
             }
         }
         if let Some(border) = border {
-            block.extend_from_slice(&border.phase);
-            block.push(0.0);
+            for phase in &border.phase {
+                block.extend_from_slice(phase);
+                block.extend(border.phase.iter().map(|_| 0.0));
+            }
         }
         let mut swaps = vec![0; size];
         let pivot = eliminate(&mut block, size, size, &mut swaps);
@@ -169,7 +177,7 @@ impl Chain {
         self.last = Last { size, block, swaps };
     }
 
-    /// The border that the smallest singular value of the last panel asks for; `None` if it is not far below the others.
+    /// The border that small singular values of the last panel ask for; `None` if none is far below the others.
     #[must_use]
     pub fn border(&self, conditions: &[f64]) -> Option<Border> {
         let size = self.n + self.m;
@@ -178,17 +186,19 @@ impl Chain {
             return None;
         }
         let svd = DMatrix::from_row_slice(size, size, &block).svd(true, true);
-        let least = svd.singular_values.imin();
-        let value = svd.singular_values[least];
-        let next =
-            svd.singular_values.iter().filter(|&&other| other > value).fold(f64::INFINITY, |m, &x| m.min(x));
-        if value > GLIDING * next {
-            return None;
-        }
-        let slack: Vec<f64> = svd.u?.column(least).iter().skip(CARRIED).copied().collect();
-        let phase = svd.v_t?.row(least).iter().copied().collect();
-        let norm = slack.iter().map(|x| x * x).sum::<f64>().sqrt();
-        Some(Border { slack: slack.iter().map(|x| x / norm).collect(), phase })
+        let mut order: Vec<usize> = (0..size).collect();
+        order.sort_by(|&i, &j| svd.singular_values[i].total_cmp(&svd.singular_values[j]));
+        let value = |rank: usize| svd.singular_values[order[rank]];
+        let count = (1..=MOST_SLACK).rev().find(|&k| value(k - 1) < GLIDING * value(k))?;
+        let (u, v) = (svd.u?, svd.v_t?);
+        let slack = |&i: &usize| {
+            let w: Vec<f64> = u.column(i).iter().skip(CARRIED).copied().collect();
+            let norm = w.iter().map(|x| x * x).sum::<f64>().sqrt();
+            w.iter().map(|x| x / norm).collect()
+        };
+        let phase = |&i: &usize| v.row(i).iter().copied().collect();
+        let open = &order[..count];
+        Some(Border { slack: open.iter().map(slack).collect(), phase: open.iter().map(phase).collect() })
     }
 
     /// The least relative pivot met: of the order of rounding, zero or NaN where the chain is singular.
@@ -239,7 +249,7 @@ impl Chain {
         carried.resize(*size, 0.0);
         forward(block, *size, swaps, &mut carried);
         backward(block, *size, &mut carried);
-        let slack = if *size > n + m { carried[n + m] } else { 0.0 };
+        let slack = std::array::from_fn(|i| carried.get(n + m + i).copied().unwrap_or(0.0));
         let count = self.elements() + 1;
         let mut states = vec![0.0; n * count];
         let mut constants = vec![0.0; m * count];

@@ -2,8 +2,10 @@
 
 use nalgebra::{Quaternion, Vector3};
 
+use super::chain::Slack;
 use super::ends::{At, Units};
 use super::mesh::Mesh;
+use super::problem::Problem;
 use crate::frame::Twist;
 use crate::section::Strain;
 
@@ -29,6 +31,12 @@ pub enum Layout {
 }
 
 impl Layout {
+    /// The fewest states that the loads of a problem need.
+    #[must_use]
+    pub fn of(problem: &Problem) -> Self {
+        if problem.has_line_force() { Self::Moment } else { Self::Constant }
+    }
+
     /// Places, among the changes of `r`, rotation, `N` and `M + r x N` (three each), of the states.
     #[must_use]
     pub fn states(self) -> &'static [usize] {
@@ -58,7 +66,7 @@ pub struct Iterate {
     /// At the stages, element by element.
     pub strains: Vec<Strain>,
     /// By how much the end may miss where a condition follows from the others: zero but for the error of the mesh.
-    pub slack: f64,
+    pub slack: Slack,
 }
 
 /// A change of an [`Iterate`], in the units of the problem.
@@ -69,7 +77,7 @@ pub struct Correction {
     /// Of the strains.
     pub strains: Vec<Strain>,
     /// Of the slack.
-    pub slack: f64,
+    pub slack: Slack,
 }
 
 impl Iterate {
@@ -89,7 +97,11 @@ impl Iterate {
         };
         let strains = self.strains.iter().zip(&by.strains).map(|(e, change)| e + fraction * change);
         let nodes = self.nodes.iter().zip(&by.nodes).map(node).collect();
-        Self { nodes, strains: strains.collect(), slack: self.slack + fraction * by.slack }
+        Self {
+            nodes,
+            strains: strains.collect(),
+            slack: std::array::from_fn(|i| self.slack[i] + fraction * by.slack[i]),
+        }
     }
 
     /// Strains at `x` in [0, 1] of an element, by the polynomial through its stages.
@@ -118,6 +130,31 @@ impl Correction {
             sum += local * mesh.length(i) / length;
         }
         sum.sqrt()
+    }
+}
+
+/// Makes the constants of an iterate follow their values at the start: they jump at point loads and, if no force is
+/// distributed, by distributed couples. `load` is the factor of the loads.
+pub fn settle(mesh: &Mesh<'_>, layout: Layout, x: &mut Iterate, load: f64) {
+    if layout == Layout::Full {
+        return;
+    }
+    for i in 0..mesh.elements() {
+        let (mut force, mut about_origin) = (x.nodes[i].force, x.nodes[i].about_origin);
+        let h = mesh.length(i) * load;
+        for ((p, c), weight) in mesh.load(i).iter().zip(&mesh.gauss.weights) {
+            force -= h * weight * p;
+            about_origin -= h * weight * c;
+        }
+        let next = &mut x.nodes[i + 1];
+        if let Some((f, m)) = mesh.points[i + 1] {
+            force -= load * f;
+            about_origin -= load * (next.position.cross(&f) + m);
+        }
+        next.force = force;
+        if layout == Layout::Constant {
+            next.about_origin = about_origin;
+        }
     }
 }
 

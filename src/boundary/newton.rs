@@ -133,5 +133,5 @@ fn distance(a: &Correction, factor: f64, b: &Correction, mesh: &Mesh<'_>) -> f64
     let node = |(a, b): (&[f64; 12], &[f64; 12])| std::array::from_fn(|i| a[i] - factor * b[i]);
     let nodes = a.nodes.iter().zip(&b.nodes).map(node).collect();
     let strains = a.strains.iter().zip(&b.strains).map(|(a, b)| a - factor * b).collect();
-    Correction { nodes, strains, slack: 0.0 }.norm(mesh)
+    Correction { nodes, strains, slack: Default::default() }.norm(mesh)
 }

@@ -6,11 +6,11 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Quaternion, Vector3};
+use nalgebra::{DMatrix, DVector, Quaternion, Vector3};
 
 use super::adapt::{Estimate, estimate, transferred_strains};
 use super::ends::{At, End, Hold};
-use super::iterate::{Iterate, at_rest};
+use super::iterate::{Iterate, Layout, at_rest, settle};
 use super::law::Law;
 use super::mesh::Mesh;
 use super::newton::{Control, Failed, newton};
@@ -32,6 +32,8 @@ pub struct Guess {
     pub strains: Vec<Strain>,
     /// States there.
     pub states: Vec<At>,
+    /// Whether their forces and moments are known; else they are those that fit the strains best.
+    pub has_wrench: bool,
 }
 
 /// The known shape at `t = 0` and the way from it.
@@ -59,6 +61,8 @@ pub struct Reached {
     pub norms: Vec<f64>,
     /// Why no further, if not to the goal.
     pub failure: Option<Failed>,
+    /// The state before the last step: its fraction, nodes and unknowns.
+    pub before: Option<(f64, Vec<f64>, Iterate)>,
 }
 
 impl Problem {
@@ -125,7 +129,7 @@ const IMPERFECTION: f64 = 0.2;
 /// Error of the mesh that is too large on a careful way.
 const LARGEST_ERROR: f64 = 1e-2;
 /// Radians that a section turns at most in one step: more may be another solution.
-const LARGEST_STEP_TURN: f64 = 2.0;
+pub const LARGEST_STEP_TURN: f64 = 2.0;
 /// The least step of `t`.
 const LEAST_STEP: f64 = 1e-5;
 /// Solves on a way that are too many.
@@ -232,8 +236,9 @@ impl Path {
                 let winds = mesh.problem.wound(known) > 0.0;
                 Self::at_rest(mesh, &known.strains(mesh.problem)?, *size, winds)?
             }
-            Known::Given(guess) => Self::from_guess(mesh, guess),
+            Known::Given(guess) => Self::from_guess(mesh, guess)?,
         };
+        settle(mesh, Layout::of(mesh.problem), &mut path.x, path.load);
         let count = mesh.elements();
         for (i, end) in path.base.iter_mut().enumerate() {
             let at = &path.x.nodes[i * count];
@@ -272,7 +277,7 @@ impl Path {
         let places = (0..mesh.elements()).flat_map(|i| mesh.places(i));
         let strains = places.map(flawed).collect();
         Ok(Self {
-            x: Iterate { nodes, strains, slack: 0.0 },
+            x: Iterate { nodes, strains, slack: Default::default() },
             base: problem.ends,
             load: 0.0,
             offset: Vec::new(),
@@ -280,11 +285,15 @@ impl Path {
         })
     }
 
-    fn from_guess(mesh: &Mesh<'_>, guess: &Guess) -> Self {
+    fn from_guess(mesh: &Mesh<'_>, guess: &Guess) -> Result<Self, InvalidInput> {
         let nodes = mesh.nodes.iter().map(|&s| guess.state(s)).collect();
         let strains = (0..mesh.elements()).flat_map(|i| mesh.places(i)).map(|s| guess.strain(s)).collect();
-        let x = Iterate { nodes, strains, slack: 0.0 };
-        Self { x, base: mesh.problem.ends, load: 1.0, offset: Vec::new(), winds: false }
+        let mut x = Iterate { nodes, strains, slack: Default::default() };
+        if !guess.has_wrench {
+            fit_wrench(mesh, guess, &mut x)?;
+        }
+        let base = mesh.problem.ends;
+        Ok(Self { x, base, load: 1.0, offset: Vec::new(), winds: false })
     }
 
     /// What is asked for at `t`.
@@ -322,7 +331,6 @@ impl Path {
     ) -> Result<Stop, InvalidInput> {
         let problem = system.mesh.problem;
         if self.offset.is_empty() {
-            system.settle(&mut reached.x, self.load);
             let targets = self.targets(problem, 0.0);
             match system.evaluate(&reached.x, &targets) {
                 Ok(()) => self.offset.extend_from_slice(system.law_residual()),
@@ -340,14 +348,17 @@ impl Path {
             let ended = newton(system, reached.x.clone(), &targets, &control);
             reached.steps += 1;
             reached.iterations += ended.norms.len();
-            let jumped = ahead > 0.0 && largest_turn(&reached.x, &ended.x) > LARGEST_STEP_TURN;
+            let jumped = largest_turn(&reached.x, &ended.x) > LARGEST_STEP_TURN;
             let failure = ended.failure.or(jumped.then_some(Failed::Jumped));
             let Some(failure) = failure else {
                 if !stride.again && ended.norms.len() <= 6 {
                     stride.step = (2.0 * stride.step).min(stride.most);
                 }
                 stride.again = false;
-                reached.x = ended.x;
+                let last = std::mem::replace(&mut reached.x, ended.x);
+                if t > reached.fraction {
+                    reached.before = Some((reached.fraction, system.mesh.nodes.clone(), last));
+                }
                 reached.fraction = t;
                 reached.norms = ended.norms;
                 if stride.careful {
@@ -405,8 +416,59 @@ impl Reached {
     #[must_use]
     pub fn start(path: &Path) -> Self {
         let (x, norms) = (path.x.clone(), Vec::new());
-        Self { x, fraction: 0.0, steps: 0, iterations: 0, norms, failure: None }
+        Self { x, fraction: 0.0, steps: 0, iterations: 0, norms, failure: None, before: None }
     }
+}
+
+/// Gives a shape the force and moment at its start that, with the loads, fit its strains best by the law.
+fn fit_wrench(mesh: &Mesh<'_>, guess: &Guess, x: &mut Iterate) -> Result<(), InvalidInput> {
+    let units = mesh.problem.units()?;
+    let layout = Layout::of(mesh.problem);
+    for node in &mut x.nodes {
+        *node = at_rest(node.position, node.rotation);
+    }
+    settle(mesh, layout, x, 1.0);
+    let count = x.nodes.len();
+    let (mut rows, mut rhs) = (DMatrix::zeros(4 * count, 6), DVector::zeros(4 * count));
+    for (i, (at, &s)) in x.nodes.iter().zip(&mesh.nodes).enumerate() {
+        let response = mesh.problem.law.at(s)?;
+        let resultants = |force: Vector, about_origin: Vector| {
+            let at = At { force, about_origin, ..*at };
+            let frame = super::ends::directors(&at.rotation);
+            let m = frame.tr_mul(&at.moment());
+            let n = Strain::new(frame.column(2).dot(&force), m.x, m.y, m.z);
+            // Strains over the whole ribbon, as the solver measures them.
+            let strain = response.compliance.component_mul(&n);
+            strain.component_mul(&Strain::new(1.0, units.length, units.length, units.length))
+        };
+        let strain = guess.strain(s);
+        let scale = Strain::new(1.0, units.length, units.length, units.length);
+        let wanted =
+            response.value_alone(&strain).component_mul(&scale) - resultants(at.force, at.about_origin);
+        rhs.rows_mut(4 * i, 4).copy_from(&wanted);
+        for k in 0..3 {
+            let unit = Vector::ith(k, 1.0);
+            rows.view_mut((4 * i, k), (4, 1)).copy_from(&resultants(units.force * unit, Vector::zeros()));
+            rows.view_mut((4 * i, 3 + k), (4, 1))
+                .copy_from(&resultants(Vector::zeros(), units.moment * unit));
+        }
+    }
+    // What the strains do not tell is left zero.
+    let svd = rows.svd(true, true);
+    let least = 1e-8 * svd.singular_values.max();
+    if let Ok(fit) = svd.solve(&rhs, least) {
+        let first = &mut x.nodes[0];
+        first.force += units.force * Vector::new(fit[0], fit[1], fit[2]);
+        first.about_origin += units.moment * Vector::new(fit[3], fit[4], fit[5]);
+        if layout != Layout::Constant {
+            let (force, about) = (first.force, first.about_origin);
+            for node in &mut x.nodes[1..] {
+                node.force += force;
+                node.about_origin += about;
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Turns a shape that is free to turn about an axis to where its load is lowest.
@@ -454,11 +516,15 @@ fn hang(mesh: &Mesh<'_>, nodes: &mut [At]) {
     }
 }
 
-/// Largest angle by which a node turned.
-fn largest_turn(from: &Iterate, to: &Iterate) -> f64 {
+/// Largest angle by which a node turned, followed from the start: a whole turn is not none.
+#[must_use]
+pub fn largest_turn(from: &Iterate, to: &Iterate) -> f64 {
+    let mut before = Quaternion::new(1.0, 0.0, 0.0, 0.0);
     let angle = |(a, b): (&At, &At)| {
         let w = b.rotation * a.rotation.conjugate();
-        2.0 * w.imag().norm().atan2(w.w.abs())
+        let w = if w.dot(&before) < 0.0 { -w } else { w };
+        before = w;
+        2.0 * w.imag().norm().atan2(w.w)
     };
     from.nodes.iter().zip(&to.nodes).map(angle).fold(0.0, f64::max)
 }

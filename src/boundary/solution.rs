@@ -30,7 +30,7 @@ pub struct Solution {
     pub energy: f64,
     /// Minus the work of dead forces, on displacements from the origin.
     pub load_potential: f64,
-    /// Largest number of negative eigenvalues of the tangent stiffness of a section, at the stages.
+    /// Largest number of negative eigenvalues of the tangent stiffness of a section, at stages and nodes.
     pub section_index: usize,
 }
 
@@ -121,6 +121,13 @@ impl Solution {
         let mesh = Mesh::new(&problem, nodes, degree)?;
         let (mut energy, mut load_potential, mut section_index) = (0.0, 0.0, 0);
         let mut stepper = Stepper::new(&problem, mesh.gauss)?;
+        for (at, (s, i)) in x.nodes.iter().zip(mesh.nodes.iter().zip(0..)) {
+            let i: usize = (i as usize).min(mesh.elements() - 1);
+            let response = problem.law.at(*s)?;
+            let guess = x.strain(&mesh, i, (s - mesh.nodes[i]) / mesh.length(i));
+            let strain = pointwise(&response, &SectionState::resultants(at), guess);
+            section_index = section_index.max(response.index(&strain));
+        }
         for i in 0..mesh.elements() {
             let mut made = Vec::new();
             let responses = mesh.responses(i, &mut made)?;

@@ -1,12 +1,12 @@
 //! The solver: a way to the solution on a coarse mesh, then meshes until the error is small enough.
 
-use super::adapt::{Estimate, estimate, refined, transferred};
+use super::adapt::{estimate, refined, transferred};
 use super::check;
 use super::ends::Hold;
 use super::iterate::{Iterate, Layout};
 use super::mesh::Mesh;
-use super::newton::{Control, newton};
-use super::path::{Guess, Known, Path, Reached, Stop, Stride};
+use super::newton::{Control, Failed, newton};
+use super::path::{Guess, Known, LARGEST_STEP_TURN, Path, Reached, Stop, Stride, largest_turn};
 use super::problem::Problem;
 use super::system::System;
 use crate::InvalidInput;
@@ -146,12 +146,13 @@ const MOST_MESHES: usize = 25;
 /// Where a section is refused.
 pub fn solve(problem: &Problem, settings: &Settings, guess: Option<&Guess>) -> Result<Solved, InvalidInput> {
     let held = problem.ends.iter().all(|end| end.hold != Hold::Free);
+    let closed = problem.ends[1].hold == Hold::Closed;
     let mut best: Option<Solved> = None;
     let mut spent = Spent::default();
     for attempt in ATTEMPTS {
         let known = match guess {
             Some(guess) => Known::Given(guess),
-            None if held != attempt.other => Known::Straight(attempt.imperfection),
+            None if closed || held != attempt.other => Known::Straight(attempt.imperfection),
             None => Known::Natural(attempt.imperfection),
         };
         let turn = first_turn(problem, &known)?;
@@ -165,7 +166,13 @@ pub fn solve(problem: &Problem, settings: &Settings, guess: Option<&Guess>) -> R
         let stride = Stride { step: most.min(step), most, careful: attempt.careful, again: false };
         let (mesh, reached) = followed(settings, mesh, &known, stride, &mut spent)?;
         let solved = if reached.failure.is_none() {
-            adapted(settings, mesh, reached.x, &mut spent)?
+            let before = reached.before;
+            let mut solved = adapted(settings, mesh, reached.x, &mut spent)?;
+            // What a mesh finds and a finer one does not confirm is no state: the one before is.
+            if let (Status::Diverged, Some((fraction, nodes, x))) = (solved.report.status, before) {
+                solved = Solved { nodes, x, report: Report { fraction, ..solved.report } };
+            }
+            solved
         } else {
             unfinished(mesh, reached, &spent)
         };
@@ -259,7 +266,6 @@ fn first_turn(problem: &Problem, known: &Known<'_>) -> Result<f64, InvalidInput>
 }
 
 fn unfinished(mesh: Mesh<'_>, reached: Reached, spent: &Spent) -> Solved {
-    use super::newton::Failed;
     use super::system::Failure;
     let failure = reached.failure.as_ref();
     let status = match failure {
@@ -299,8 +305,15 @@ fn adapted<'p>(
             let report = spent.report(Status::Diverged, reason, 1.0, ended.norms);
             return Ok(Solved { nodes: mesh.nodes, x, report });
         }
+        if largest_turn(&x, &ended.x) > LARGEST_STEP_TURN {
+            drop(system);
+            let reason = format!("on a mesh of {} elements {}", mesh.elements(), Failed::Jumped);
+            let report = spent.report(Status::Diverged, reason, 1.0, ended.norms);
+            return Ok(Solved { nodes: mesh.nodes, x, report });
+        }
         x = ended.x;
-        let Estimate { error, defects } = estimate(&mut system, &x, &[])?;
+        let estimated = estimate(&mut system, &x, &[])?;
+        let error = estimated.error;
         let condition = system.condition();
         let count = mesh.elements();
         let stalled = before.is_some_and(|(e, n)| error > 0.5 * e && error < 1e-6 && count > n);
@@ -333,8 +346,7 @@ fn adapted<'p>(
             return Ok(Solved { nodes: mesh.nodes, x, report });
         }
         before = Some((error, count));
-        let mut nodes = refined(&mesh, &Estimate { error, defects }, settings.tolerance);
-        nodes.truncate(nodes.len().max(2));
+        let nodes = refined(&mesh, &estimated, settings.tolerance);
         let finer = Mesh::new(problem, nodes, settings.degree)?;
         x = transferred(&x, &mesh, &finer)?;
         mesh = finer;

@@ -19,7 +19,7 @@ use nalgebra::{Matrix3, Quaternion, SMatrix, Vector3};
 use super::chain::{Border, Chain};
 use super::element::{Change, Eliminated, Entry, Exit, Span, Stages};
 use super::ends::{Condition, End, Units, conditions, half_angle};
-use super::iterate::{Correction, Iterate, Layout};
+use super::iterate::{Correction, Iterate, Layout, settle};
 use super::mesh::Mesh;
 use crate::InvalidInput;
 use crate::section::Strain;
@@ -97,8 +97,7 @@ impl<'m, 'p> System<'m, 'p> {
     /// # Errors
     /// Where a section is refused.
     pub fn new(mesh: &'m Mesh<'p>) -> Result<Self, InvalidInput> {
-        let layout = if mesh.problem.has_line_force() { Layout::Moment } else { Layout::Constant };
-        Self::with_layout(mesh, layout)
+        Self::with_layout(mesh, Layout::of(mesh.problem))
     }
 
     /// The equations with these states, at least those that the loads need.
@@ -158,7 +157,9 @@ impl<'m, 'p> System<'m, 'p> {
             self.join(x, targets, i, &exit, linearise);
         }
         if let Some(border) = &self.border {
-            self.residual.end.iter_mut().zip(&border.slack).for_each(|(rhs, w)| *rhs -= x.slack * w);
+            for (slack, column) in x.slack.iter().zip(&border.slack) {
+                self.residual.end.iter_mut().zip(column).for_each(|(rhs, w)| *rhs -= slack * w);
+            }
         }
         let finite = self.residual.gaps.iter().flatten().all(|g| g.is_finite())
             && self.residual.strains.iter().all(|e| e.iter().all(|x| x.is_finite()));
@@ -168,7 +169,7 @@ impl<'m, 'p> System<'m, 'p> {
         if linearise {
             let end = self.placed(&end);
             // On the way what the law is violated by tells the places along the ribbon apart.
-            if !(targets.offset.is_empty() && self.mesh.problem.glides() && !is_uniform(&x.strains)) {
+            if !(targets.offset.is_empty() && self.mesh.problem.glides()) {
                 self.border = None;
             } else if self.border.is_none() {
                 self.border = self.chain.border(&end);
@@ -338,30 +339,9 @@ impl<'m, 'p> System<'m, 'p> {
         &self.residual.strains
     }
 
-    /// Makes the constants of an iterate follow their values at the start: they jump at point loads and, if
-    /// nothing else is distributed, by distributed couples.
+    /// Makes the constants of an iterate follow their values at the start.
     pub fn settle(&self, x: &mut Iterate, load: f64) {
-        if self.layout == Layout::Full {
-            return;
-        }
-        let weights = &self.mesh.gauss.weights;
-        for i in 0..self.mesh.elements() {
-            let (mut force, mut about_origin) = (x.nodes[i].force, x.nodes[i].about_origin);
-            let h = self.mesh.length(i) * load;
-            for ((p, c), weight) in self.mesh.load(i).iter().zip(weights) {
-                force -= h * weight * p;
-                about_origin -= h * weight * c;
-            }
-            let next = &mut x.nodes[i + 1];
-            if let Some((f, m)) = self.mesh.points[i + 1] {
-                force -= load * f;
-                about_origin -= load * (next.position.cross(&f) + m);
-            }
-            next.force = force;
-            if self.layout == Layout::Constant {
-                next.about_origin = about_origin;
-            }
-        }
+        settle(self.mesh, self.layout, x, load);
     }
 }
 
@@ -436,14 +416,6 @@ fn cayley(w: &Quaternion<f64>) -> Matrix3<f64> {
     Matrix3::identity() + (x * x - x) * scale
 }
 
-/// Whether no curvature differs from their mean by more than a thousandth of the largest.
-fn is_uniform(strains: &[Strain]) -> bool {
-    let mean: Strain = strains.iter().sum::<Strain>() / strains.len() as f64;
-    let spread = strains.iter().map(|e| (e - mean).rows(1, 3).amax()).fold(0.0, f64::max);
-    let largest = strains.iter().map(|e| e.rows(1, 3).amax()).fold(0.0, f64::max);
-    spread <= 1e-3 * largest
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -513,7 +485,7 @@ mod tests {
         };
         let nodes = mesh.nodes.iter().map(&mut node).collect();
         let strains = (0..mesh.stages()).map(|_| Strain::from_fn(|_, _| 0.1 * numbers.next())).collect();
-        Iterate { nodes, strains, slack: 0.0 }
+        Iterate { nodes, strains, slack: Default::default() }
     }
 
     /// Every residual, none multiplied by a matrix that changes: of rotations the vector part of the quaternion.

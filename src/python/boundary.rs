@@ -113,7 +113,7 @@ impl BoundaryProblem {
     }
 
     /// Solves from the natural shape, or from a guess: S (k,), strains (k, 4), position (k, 3), quaternion (k, 4), and
-    /// force and moment (k, 3) in the fixed basis.
+    /// force and moment (k, 3) in the fixed basis, or (0, 3) where they are not known.
     #[pyo3(signature = (tol, degree = None, guess = None))]
     fn solve(
         &self,
@@ -164,7 +164,7 @@ impl BoundaryProblem {
         let x = Iterate {
             nodes: states.into_iter().map(state).collect(),
             strains: strains.into_iter().map(Strain::from).collect(),
-            slack: 0.0,
+            slack: Default::default(),
         };
         let solution = Solution::from_parts(Arc::clone(&self.problem), degree, nodes, x, report)?;
         Ok(BoundarySolution { solution })
@@ -355,8 +355,12 @@ fn guess_from((s, strains, position, rotation, force, moment): &GuessArrays<'_>)
     let strains = strains_from(strains)?;
     let position: Vec<Three> = rows_from("position", position)?;
     let rotation: Vec<[f64; 4]> = rows_from("quaternion", rotation)?;
-    let (force, moment): (Vec<Three>, Vec<Three>) =
+    let (mut force, mut moment): (Vec<Three>, Vec<Three>) =
         (rows_from("force", force)?, rows_from("moment", moment)?);
+    let has_wrench = !force.is_empty();
+    if !has_wrench {
+        (force, moment) = (vec![[0.0; 3]; s.len()], vec![[0.0; 3]; s.len()]);
+    }
     let lengths = [strains.len(), position.len(), rotation.len(), force.len(), moment.len()];
     if s.len() < 2 || lengths.iter().any(|&n| n != s.len()) || s.windows(2).any(|w| !(w[0] < w[1])) {
         let found = format!("{} places, {lengths:?} rows", s.len());
@@ -373,5 +377,5 @@ fn guess_from((s, strains, position, rotation, force, moment): &GuessArrays<'_>)
             about_origin: Vector::from(moment[i]) + position.cross(&force),
         }
     };
-    Ok(Guess { states: (0..s.len()).map(state).collect(), strains, s })
+    Ok(Guess { states: (0..s.len()).map(state).collect(), strains, s, has_wrench })
 }

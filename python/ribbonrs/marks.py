@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -9,8 +10,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from .arrays import Array
-from .ends import Clamped, Free, Hinged, Pinned, Sliding
-from .loads import PointLoad
+from .ends import Clamped, Closed, Free, Hinged, Pinned, Sliding
+from .loads import PROBES, PointLoad
 
 if TYPE_CHECKING:
     from .render import Picture
@@ -22,6 +23,8 @@ SHAPES = {Clamped: "s", Sliding: "D", Pinned: "^", Hinged: "o"}
 COLOUR = "tab:green"
 ARROW = 0.55
 """Inches: the longest arrow, of a force in the plane of the picture."""
+ALONG, SHORTER, SHORTEST = 8, 0.6, 0.02
+"""A line load is drawn as arrows at so many equal steps, the longest so much shorter; none below the last."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +36,7 @@ class Marks:
     ends : tuple of ((2,) array, str)
         Where held ends are, and matplotlib's name of their mark.
     forces : tuple of ((2,) array, (2,) array)
-        Where forces act, and the direction of each.
+        Where forces act, and the direction of each, of a line load its share of the largest.
     gravity : (2,) array or None
         Its direction.
     """
@@ -54,22 +57,29 @@ def marks_of(state: State, picture: Picture) -> Marks:
     if not scene.loaded:
         return Marks()
     ends: list[tuple[float, str]] = []
-    forces: list[tuple[float, tuple[float, ...]]] = []
+    forces: list[tuple[float, Array]] = []
     for S, end in ((0.0, scene.start), (length, scene.end)):
         if type(end) in SHAPES:
             ends.append((S, SHAPES[type(end)]))
+        elif isinstance(end, Closed) and (any(scene.gravity) or scene.loads):
+            ends.append((S, SHAPES[Clamped]))  # what bears the load
         if isinstance(end, Free):
-            forces.append((S, end.force))
+            forces.append((S, _direction(end.force)))
         elif isinstance(end, Sliding):
-            forces.append((S, tuple(end.force * entry for entry in end.axis)))
-    forces += [(load.S, load.force) for load in scene.loads if isinstance(load, PointLoad)]
+            forces.append((S, math.copysign(float(end.force != 0.0), end.force) * np.array(end.axis)))
+    for load in scene.loads:
+        if isinstance(load, PointLoad):
+            forces.append((load.S, _direction(load.force)))
+        else:
+            along = load.forces(length)[:: PROBES // ALONG]
+            forces += zip(np.linspace(0.0, length, len(along)).tolist(), _shares(along), strict=True)
     drawn = picture.drawn * length
     return Marks(
         tuple((state.at(S).position @ picture.axes, shape) for S, shape in ends if drawn >= S),
         tuple(
-            (state.at(S).position @ picture.axes, _direction(force) @ picture.axes)
+            (state.at(S).position @ picture.axes, force @ picture.axes)
             for S, force in forces
-            if drawn >= S and any(force)
+            if drawn >= S and np.linalg.norm(force) > SHORTEST
         ),
         _direction(scene.gravity) @ picture.axes if any(scene.gravity) else None,
     )
@@ -86,14 +96,20 @@ def draw_marks(axes: Axes, marks: Marks, inch: float) -> None:
         middle = corner + np.array([-0.5, 0.48]) * inch
         reach = 0.5 * ARROW * inch * marks.gravity
         _arrow(axes, middle - reach, middle + reach)
-        name = middle - [0.0, 0.45 * inch]
-        axes.text(name[0], name[1], "gravity", color=COLOUR, fontsize=8, ha="center", va="center")
+        name = middle - [0.12 * inch, 0.0]  # beside an arrow that points down in every picture
+        axes.text(name[0], name[1], "gravity", color=COLOUR, fontsize=8, ha="right", va="center")
 
 
 def _direction(force: tuple[float, ...]) -> Array:
-    """The unit vector along a force that is not zero."""
-    scaled = np.array(force) / max(map(abs, force))
-    return np.asarray(scaled / np.linalg.norm(scaled))
+    """The unit vector along a force; zero of none."""
+    scaled = np.array(force) / (max(map(abs, force)) or 1.0)
+    return np.asarray(scaled / (np.linalg.norm(scaled) or 1.0))
+
+
+def _shares(forces: Array) -> Array:
+    """Forces (n, 3) along a line over the largest of them, somewhat shorter than those at points."""
+    scaled = forces / (np.max(np.abs(forces)) or 1.0)
+    return np.asarray(SHORTER * scaled / (np.max(np.linalg.norm(scaled, axis=1)) or 1.0))
 
 
 def _arrow(axes: Axes, tail: Array, tip: Array) -> None:

@@ -34,6 +34,8 @@ COLOURS = colormaps["coolwarm"]
 SMALLEST = 1e-6
 INK = "0.2"
 DASHES = ("-", "--", ":")
+# Of an axis in the picture: its name goes beside it, since another axis may point the same way.
+FORESHORTENED = 0.6
 # Inches: width of the figure, height of the strip below the ribbon for the fixed basis and the scale.
 WIDE, KEY = 11.0, 0.9
 DPI = 150.0
@@ -48,7 +50,7 @@ def plot(state: State, path: str | PathLike[str] | None = None) -> Figure:
     varies there are profiles at both ends and halfway and, in place of the cross-section, the curvatures
     along S, with its events as vertical lines. Ends that are held have a mark, a square where they are
     clamped, a diamond where they slide, a triangle where they are pinned and a circle where they are hinged;
-    arrows show the directions of forces at ends and points, and of gravity.
+    arrows show the directions of forces at ends, at points and along lines, and of gravity.
 
     Parameters
     ----------
@@ -111,7 +113,7 @@ def _layout(figure: Figure, aspect: float, margin: float) -> tuple[Axes, Axes, A
         )
     else:
         high = 5.8
-        places = (0.2, 0.1, 6.6, 5.2), (7.7, 2.8, 0.14, 2.2), (7.84, 2.8, 2.9, 2.2), (7.84, 0.4, 2.9, 1.5)
+        places = (0.2, 0.1, 6.6, 5.2), (7.7, 2.8, 0.14, 2.2), (7.84, 2.8, 2.9, 2.2), (7.84, 0.5, 2.9, 1.5)
     figure.set_size_inches(WIDE, high)
     space, bar, profile, section = (
         figure.add_axes((left / WIDE, low / high, w / WIDE, h / high)) for left, low, w, h in places
@@ -148,7 +150,10 @@ def _draw_key(axes: Axes, directions: Array, corner: Array, inch: float, note: s
         tip = origin + 0.36 * inch * direction
         arrow = {"arrowstyle": "-|>", "color": INK, "lw": 0.8, "shrinkA": 0}
         axes.annotate("", tuple(tip), tuple(origin), annotation_clip=False, arrowprops=arrow)
-        name = origin + 0.36 * inch * direction + 0.11 * inch * direction / max(np.hypot(*direction), 0.1)
+        size = np.hypot(*direction)
+        name = origin + 0.36 * inch * direction + 0.11 * inch * direction / max(size, 0.1)
+        if size < FORESHORTENED:
+            name[0] -= 0.15 * inch
         axes.text(name[0], name[1], f"$E_{i + 1}$", color=INK, fontsize=8, ha="center", va="center")
     length = _round_number(inch)
     start = corner + np.array([1.4, 0.4]) * inch
@@ -180,7 +185,12 @@ def _draw_profiles(axes: Axes, x: Array, deflections: Array, colour: ScalarMappa
 
 def _name_profiles(axes: Axes, x: Array, deflections: Array, places: Array) -> None:
     """Say at which S each profile is, beside its right end; equal ones share a name."""
-    axes.set(xlim=(-0.54, 0.86), xlabel="$X_2$ over the width at $S$", xticks=[-0.5, 0.0, 0.5])
+    wide = axes.bbox.width / DPI  # an inch of it for the names
+    axes.set(
+        xlim=(-0.54, (0.56 * wide + 0.54) / (wide - 1.0)),
+        xlabel="$X_2$ over the width at $S$",
+        xticks=[-0.5, 0.0, 0.5],
+    )
     low, high = axes.get_ylim()
     named: dict[int, list[str]] = {}
     for deflection, S in zip(deflections, places, strict=True):
@@ -231,9 +241,10 @@ def _title(state: State) -> str:
 
 
 def _range(values: Array) -> str:
-    """As `= 0.02` or, if four figures tell the least from the greatest, `from 0.01 to 0.02`."""
-    least, greatest = f"{np.min(values):.4g}", f"{np.max(values):.4g}"
-    return f"= {least}" if least == greatest else f"from {least} to {greatest}"
+    """As `= 0.02` or, if three figures tell the least from the greatest, `from 0.01 to 0.02`."""
+    least, greatest = np.min(values), np.max(values)
+    ends = f"{least:.3g}", f"{greatest:.3g}"
+    return f"= {least:.4g}" if ends[0] == ends[1] else f"from {ends[0]} to {ends[1]}"
 
 
 def _note(state: State, picture: Picture) -> str:

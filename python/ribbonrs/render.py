@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .arrays import Array
+from .ends import Closed, Free
 from .surface import placed, section
 
 if TYPE_CHECKING:
-    from .state import State
+    from .state import Sections, State
 
 __all__ = ["Picture", "render"]
 
@@ -29,8 +30,13 @@ CELLS, MIN_ACROSS, MAX_ACROSS = 20_000, 32, 100
 OUTLINE = 0.012
 """Width of the dark outline along the edges, in units of the ribbon's width."""
 
-# The shape lies on its broadest side and is seen from above and from the side by these angles.
-ELEVATION, SIDE = math.radians(35.0), math.radians(15.0)
+# The shape lies on its broadest side and is seen from above and from the side by these angles; one of which
+# is known what is up is seen from above by less and straight on, so that what is level is level.
+ELEVATION, SIDE, STANDING = math.radians(35.0), math.radians(15.0), math.radians(26.0)
+
+# A centreline does not choose what is up if it departs less from a straight line, relative to its length, or
+# in its main direction less than so many times as much as in the other.
+STRAIGHT, ROUND = 0.01, 1.3
 
 # Cosine of an angle that counts as a right one, so that rounding does not turn the picture over.
 SQUARE = 1e-6
@@ -98,7 +104,7 @@ def render(state: State) -> Picture:
     top, bottom = placed(sections, middle + fibre), placed(sections, middle - fibre)
     u1 = _means(np.broadcast_to(middle[..., 0], (along + 1, across + 1)))
 
-    camera = _camera(np.concatenate([top, bottom], axis=1))
+    camera = _camera(np.concatenate([top, bottom], axis=1), _upright(state, sections))
     x_mid = (x[:-1] + x[1:]) / 2
     face = np.where(np.abs(x_mid) > 0.5 - OUTLINE, OUTLINE_SHADE, 1.0)
     parts = []
@@ -131,21 +137,66 @@ def _means(values: Array) -> Array:
     return np.asarray(0.25 * (rows[:, 1:] + rows[:, :-1]))
 
 
-def _camera(points: Array) -> Array:
+def _upright(state: State, sections: Sections) -> tuple[Array, Array] | None:
+    """What is up in the picture and what goes to the right; None leaves the shape lying on its broadest side.
+
+    Up is against gravity; of another ribbon that is held or loaded, the way it leaves the line between its
+    ends or, straight or coiled, its thickness. To the right is that line; with a free end, that along which
+    the other is held.
+    """
+    scene, centreline = state.scene, sections.position
+    heavy = any(scene.gravity)
+    if not heavy and (not scene.loaded or isinstance(scene.start, Closed)):
+        return None
+    line, middle = centreline[-1] - centreline[0], centreline[0]
+    if isinstance(scene.start, Free) or isinstance(scene.end, Free):
+        held = -1 if isinstance(scene.start, Free) else 0
+        line, middle = scene.ribbon.length_ratio * sections.directors[held, 2], centreline.mean(axis=0)
+    if heavy:
+        return -_unit(np.array(scene.gravity)), line
+    away = _square(centreline - middle, line)
+    _, size, axes = np.linalg.svd(away, full_matrices=False)
+    if size[0] <= max(STRAIGHT * scene.ribbon.length_ratio * math.sqrt(len(away)), ROUND * size[1]):
+        return _unit(_square(sections.directors[0, 0], line)), line
+    return _along(axes[0], np.array([1.0, 0.0, 0.0])), line
+
+
+def _camera(points: Array, upright: tuple[Array, Array] | None) -> Array:
     """Rows: the directions right, up and towards the viewer, in the fixed basis.
 
-    The shape lies on its broadest side, its longest direction to the right and its start on the left.
+    The shape lies on its broadest side, its longest direction to the right and its start on the left, unless
+    it is told what is up and what goes to the right.
     """
     cloud = points.reshape(-1, 3) - points.mean(axis=(0, 1))
+    line = points[-1].mean(axis=0) - points[0].mean(axis=0)
+    elevation, side = ELEVATION, SIDE
+    if upright is not None:
+        up, line = upright[0], _square(upright[1], upright[0])
+        cloud = _square(cloud, up)
+        elevation, side = STANDING, 0.0
     _, axes = np.linalg.eigh(cloud.T @ cloud)
-    up = _along(axes[:, 0], np.array([1.0, 0.0, 0.0]))
-    right = _along(axes[:, 2], points[-1].mean(axis=0) - points[0].mean(axis=0))
-    front = math.cos(SIDE) * np.cross(right, up) - math.sin(SIDE) * right
-    toward = math.cos(ELEVATION) * front + math.sin(ELEVATION) * up
+    right = _along(axes[:, 2], line)
+    if upright is None:
+        up = _along(axes[:, 0], np.array([1.0, 0.0, 0.0]))
+    elif np.linalg.norm(line) > 0.5 * np.ptp(cloud @ right):
+        right = _unit(line)
+    front = math.cos(side) * np.cross(right, up) - math.sin(side) * right
+    toward = math.cos(elevation) * front + math.sin(elevation) * up
     # roll the picture so that the long direction is level in it
-    level = right - (right @ toward) * toward
-    level /= np.linalg.norm(level)
+    level = _unit(right - (right @ toward) * toward)
     return np.stack([level, np.cross(toward, level), toward])
+
+
+def _square(vectors: Array, axis: Array) -> Array:
+    """The parts of vectors (..., 3) square to an axis, all of them if it has no length."""
+    size = float(axis @ axis)
+    return vectors if size == 0.0 else np.asarray(vectors - (vectors @ axis)[..., None] * axis / size)
+
+
+def _unit(vector: Array) -> Array:
+    """The direction of a vector that is not zero."""
+    scaled = vector / np.max(np.abs(vector))
+    return np.asarray(scaled / np.linalg.norm(scaled))
 
 
 def _along(axis: Array, hint: Array) -> Array:

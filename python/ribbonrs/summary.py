@@ -27,7 +27,7 @@ from .terms import Shape, Term
 __all__ = ["summary"]
 
 NOISE = 1e-12
-"""Components of reactions below this times the largest are shown as 0."""
+"""Components of reactions below this, or the error of the solution, times the largest are shown as 0."""
 
 
 def summary(scene: Scene, state: State, others: list[State]) -> Group:
@@ -214,7 +214,9 @@ def _events_table(state: State) -> Iterator[RenderableType]:
     for heading in ("K2 before", "K3", "K2 after", "K3"):
         table.add_column(heading, justify="right", no_wrap=True)
     for event in state.report.events:
-        values = (f"{value + 0.0:.4g}" for value in (*event.before[2:], *event.after[2:]))
+        small = state.report.error / state.scene.ribbon.length_ratio
+        curvatures = np.array([*event.before[2:], *event.after[2:]])
+        values = (f"{value + 0.0:.4g}" for value in np.where(np.abs(curvatures) <= small, 0.0, curvatures))
         table.add_row(f"{event.S:.6g}", event.kind, *values)
     yield table
 
@@ -226,14 +228,23 @@ def _boundary_tables(state: State) -> Iterator[RenderableType]:
     table.add_column(no_wrap=True)
     for _ in range(6):
         table.add_column(justify="right", no_wrap=True)
+    report, length = state.report, state.scene.ribbon.length_ratio
+    largest = {
+        kind: max(float(np.max(np.abs(getattr(w, kind)))) for w in vars(state.reactions).values())
+        for kind in ("force", "moment")
+    }
+    # a force is small beside moments if its own about any place of the ribbon is, and the other way round
+    scales = {
+        "force": max(largest["force"], largest["moment"] / length),
+        "moment": max(largest["moment"], largest["force"] * length),
+    }
     for name in ("start", "end"):
-        for kind in ("force", "moment"):
+        for kind, scale in scales.items():
             both = [getattr(getattr(r, name), kind) for r in (state.reactions, state.physical.reactions)]
-            small = NOISE * max(np.max(np.abs(getattr(w, kind))) for w in vars(state.reactions).values())
+            small = max(NOISE, report.error) * scale
             rows = (np.where(np.abs(both[0]) <= small, 0.0, values) for values in both)
             table.add_row(f"{kind} of the {name}", *(f"{v + 0.0:.4g}" for row in rows for v in row))
     yield table
-    report = state.report
     yield Text(
         f"{report.status} on {report.elements} elements of degree {report.degree}, "
         f"{report.iterations} Newton steps; error about {report.error:.1e}, residual {report.residual:.1e}"

@@ -78,7 +78,8 @@ impl Problem {
     }
 
     /// Turns of the end against the start if they are a twist about a straight ribbon's axis.
-    fn twist(&self) -> Option<f64> {
+    #[must_use]
+    pub fn twist(&self) -> Option<f64> {
         let aligned = |end: &End| {
             let tangent = super::ends::directors(&end.rotation).column(2).into_owned();
             end.hold.holds_rotation() && (tangent - Vector::z()).norm() < 1e-9
@@ -88,7 +89,7 @@ impl Problem {
 
     /// Turns that are wound up on the way from a known shape.
     fn wound(&self, known: &Known<'_>) -> f64 {
-        let built_in = matches!(known, Known::Straight(_)) && self.twist().is_some();
+        let built_in = matches!(known, Known::Twisted(_)) && self.twist().is_some();
         if built_in || matches!(known, Known::Given(_)) || self.ends[1].hold == Hold::Closed {
             return 0.0;
         }
@@ -142,14 +143,16 @@ pub enum Known<'a> {
     Natural(f64),
     /// Straight, or a closed circle, without the stress that this takes, with an imperfection of this size.
     Straight(f64),
+    /// The same with the twist of its ends.
+    Twisted(f64),
     /// One that is given.
     Given(&'a Guess),
 }
 
 type Strains<'p> = Box<dyn Fn(f64) -> Strain + 'p>;
 
-/// The strains of a straight ribbon, or of a closed circle, at any `S`.
-fn straight_strains(problem: &Problem) -> Strains<'_> {
+/// The strains of a straight ribbon twisted by `turns`, or of a closed circle, at any `S`.
+fn straight_strains(problem: &Problem, turns: f64) -> Strains<'_> {
     let length = problem.length;
     if problem.ends[1].hold == Hold::Closed {
         let (k, link) = (2.0 * PI / length, problem.ends[1].turns);
@@ -158,7 +161,7 @@ fn straight_strains(problem: &Problem) -> Strains<'_> {
             Strain::new(0.0, k * psi.sin(), k * psi.cos(), 2.0 * PI * link / length)
         });
     }
-    let twist = 2.0 * PI * problem.twist().unwrap_or(0.0) / length;
+    let twist = 2.0 * PI * turns / length;
     Box::new(move |s| {
         let straight = problem.law.at(s).map_or_else(|_| Strain::zeros(), |law| law.straight());
         straight + Strain::new(0.0, 0.0, 0.0, twist)
@@ -186,9 +189,12 @@ impl Known<'_> {
     /// Where a section is refused.
     pub fn strains<'s>(&'s self, problem: &'s Problem) -> Result<Strains<'s>, InvalidInput> {
         match self {
-            Self::Straight(_) => Ok(straight_strains(problem)),
+            Self::Straight(_) => Ok(straight_strains(problem, 0.0)),
+            Self::Twisted(_) => Ok(straight_strains(problem, problem.twist().unwrap_or(0.0))),
             // Of a ribbon whose shape cannot be followed along it, the straight one will have to do.
-            Self::Natural(_) => Ok(natural_strains(problem).unwrap_or_else(|_| straight_strains(problem))),
+            Self::Natural(_) => {
+                Ok(natural_strains(problem).unwrap_or_else(|_| straight_strains(problem, 0.0)))
+            }
             Self::Given(guess) => Ok(Box::new(|s| guess.strain(s))),
         }
     }
@@ -232,7 +238,7 @@ impl Path {
     /// Where a section is refused.
     pub fn new(mesh: &Mesh<'_>, known: &Known<'_>) -> Result<Self, InvalidInput> {
         let mut path = match known {
-            Known::Natural(size) | Known::Straight(size) => {
+            Known::Natural(size) | Known::Straight(size) | Known::Twisted(size) => {
                 let winds = mesh.problem.wound(known) > 0.0;
                 Self::at_rest(mesh, &known.strains(mesh.problem)?, *size, winds)?
             }

@@ -121,22 +121,45 @@ pub struct Solved {
 }
 
 /// A try: how much finer the first mesh is, the size of the imperfection, whether the mesh adapts on the way, and
-/// whether the way begins where it usually does not.
+/// which of the shapes in [`Problem::known`] the way begins with.
 struct Attempt {
     finer: usize,
     imperfection: f64,
     careful: bool,
-    other: bool,
+    choice: usize,
 }
 
 /// What is tried in turn.
-const ATTEMPTS: [Attempt; 5] = [
-    Attempt { finer: 1, imperfection: 1.0, careful: false, other: false },
-    Attempt { finer: 4, imperfection: 1.0, careful: true, other: false },
-    Attempt { finer: 4, imperfection: -3.0, careful: true, other: false },
-    Attempt { finer: 4, imperfection: 1.0, careful: true, other: true },
-    Attempt { finer: 8, imperfection: 0.0, careful: true, other: false },
+const ATTEMPTS: [Attempt; 6] = [
+    Attempt { finer: 1, imperfection: 1.0, careful: false, choice: 0 },
+    Attempt { finer: 4, imperfection: 1.0, careful: true, choice: 0 },
+    Attempt { finer: 4, imperfection: 1.0, careful: true, choice: 1 },
+    Attempt { finer: 4, imperfection: -3.0, careful: true, choice: 0 },
+    Attempt { finer: 4, imperfection: 1.0, careful: true, choice: 2 },
+    Attempt { finer: 8, imperfection: 0.0, careful: true, choice: 0 },
 ];
+
+impl Problem {
+    /// The shape to begin with: the first, second or third choice.
+    fn known(&self, choice: usize, size: f64) -> Option<Known<'static>> {
+        let (natural, straight, twisted) =
+            (Known::Natural(size), Known::Straight(size), Known::Twisted(size));
+        let choices = if self.ends[1].hold == Hold::Closed {
+            [Some(straight), None, None]
+        } else if self.ends.iter().any(|end| end.hold == Hold::Free) {
+            [Some(natural), Some(straight), None]
+        } else {
+            match self.twist() {
+                // A turn is soon wound up, which takes the shape gently along.
+                Some(turns) if turns.abs() > 1.0 => [Some(twisted), Some(straight), Some(natural)],
+                Some(turns) if turns != 0.0 => [Some(straight), Some(twisted), Some(natural)],
+                _ => [Some(straight), Some(natural), None],
+            }
+        };
+        choices[choice]
+    }
+}
+
 /// Meshes that are too many.
 const MOST_MESHES: usize = 25;
 
@@ -145,15 +168,13 @@ const MOST_MESHES: usize = 25;
 /// # Errors
 /// Where a section is refused.
 pub fn solve(problem: &Problem, settings: &Settings, guess: Option<&Guess>) -> Result<Solved, InvalidInput> {
-    let held = problem.ends.iter().all(|end| end.hold != Hold::Free);
-    let closed = problem.ends[1].hold == Hold::Closed;
     let mut best: Option<Solved> = None;
     let mut spent = Spent::default();
     for attempt in ATTEMPTS {
-        let known = match guess {
-            Some(guess) => Known::Given(guess),
-            None if closed || held != attempt.other => Known::Straight(attempt.imperfection),
-            None => Known::Natural(attempt.imperfection),
+        let known = match (guess, problem.known(attempt.choice, attempt.imperfection)) {
+            (Some(guess), _) if attempt.choice == 0 => Known::Given(guess),
+            (None, Some(known)) => known,
+            _ => continue,
         };
         let turn = first_turn(problem, &known)?;
         let nodes = problem.first_nodes((attempt.finer * settings.first_elements) as f64, turn);

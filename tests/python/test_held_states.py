@@ -14,6 +14,7 @@ from matplotlib.text import Annotation
 from refusal import refuses
 from ribbonrs.cli import main
 from ribbonrs.pieces import Pieces
+from ribbonrs.render import render
 
 LEAF = rb.Ribbon(20.0, 2.0, 0.2, material=rb.Isotropic(Y=2e6))
 LENGTH = 10.0
@@ -287,12 +288,35 @@ def test_held_ends_and_forces_are_drawn(states):
     assert (marks, arrows) == (["s"], 2)
     assert "gravity" in texts
     marks, arrows, texts = drawn(states["loaded"])
-    assert (marks, arrows) == (["s", "s"], 1)
+    # one at the point; along the line eight, since the ramp starts from zero
+    assert (marks, arrows) == (["s", "s"], 1 + 8)
     assert "gravity" not in texts
     assert drawn(states["rod"])[:2] == (["o", "^"], 1)
     assert drawn(states["twisted"])[:2] == (["s", "D"], 1)
     assert drawn(states["ring"])[:2] == ([], 0)
     assert drawn(rb.solve(rb.Scene(LEAF)))[:2] == ([], 0)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_what_is_up_and_what_is_level_in_the_picture(states, name):
+    state = states[name]
+    axes = render(state).axes
+    assert axes.T @ axes == pytest.approx(np.eye(2), abs=1e-14)
+    right, up = state.scene.gravity @ axes
+    if any(state.scene.gravity):
+        assert right == pytest.approx(0.0, abs=1e-20)
+        assert up < 0.0
+    elif name != "ring":
+        along, risen = (state.position[-1] - state.position[0]) @ axes
+        assert along > 0.0
+        if name != "linear":  # which has a free end
+            assert risen == pytest.approx(0.0, abs=1e-9 * along)
+
+
+def test_a_loaded_ring_is_held_where_it_was_glued(states):
+    scene = SCENES["ring"]
+    heavy = rb.solve(rb.Scene(LEAF, law=scene.law, start=scene.start, gravity=(1e-6, 0.0, 0.0)))
+    assert drawn(heavy)[:2] == (["s"], 1)
 
 
 def test_the_figure_says_the_shape_and_not_its_stability(states):

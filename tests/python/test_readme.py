@@ -24,7 +24,7 @@ def test_python_runs(block, tmp_path, monkeypatch):
     with contextlib.redirect_stdout(io.StringIO()) as screen:
         exec(compile(block, "README.md", "exec"), {})
     # Whatever a comment promises beside a print, as far as the first semicolon, is printed.
-    for promise in re.findall(r"print\(.*\)  # (\w+)", block):
+    for promise in re.findall(r"print\(.*\)  # (-?[\w.]+)", block):
         assert promise in screen.getvalue()
     for name in re.findall(r"\"(\w+\.(?:png|vtp|obj|npz))\"", block):
         assert Path(name).stat().st_size > 1000

@@ -224,12 +224,28 @@ impl Guess {
     }
 }
 
-/// A slight bend and twist that favours no symmetry, positive on the whole.
-fn imperfection(x: f64, length: f64) -> Strain {
-    let bend = IMPERFECTION * (0.3 + 0.2 * x - (2.0 * PI * x).cos());
-    let twist = 0.25 * IMPERFECTION * (1.0 - 0.3 * x + (PI * x).cos());
-    Strain::new(0.0, 0.0, bend / length, twist / length)
+/// A slight bend and twist that favours no symmetry, positive on the whole: a rotation of [`IMPERFECTION`] over the
+/// ribbon, but no curvature that is large against those at which a thin section changes its shape.
+fn imperfection(problem: &Problem, natural: &Strain) -> Result<impl Fn(f64) -> Strain + use<>, InvalidInput> {
+    let length = problem.length;
+    let compliance = problem.law.at(0.0)?.compliance;
+    // EI2 = eta^2/12 where EA = 1.
+    let eta = if compliance[0] > 0.0 { (12.0 * compliance[0] / compliance[2]).sqrt() } else { f64::INFINITY };
+    let curved = natural.rows(2, 2).amax() > 1e-3 * eta;
+    let largest = eta * if curved { SLIGHT_IF_CURVED } else { SLIGHT };
+    let size = (IMPERFECTION / length).min(largest);
+    Ok(move |s: f64| {
+        let x = s / length;
+        let bend = 0.3 + 0.2 * x - (2.0 * PI * x).cos();
+        let twist = 0.25 * (1.0 - 0.3 * x + (PI * x).cos());
+        Strain::new(0.0, 0.0, bend, twist) * size
+    })
 }
+
+/// Curvature of an imperfection at most, over the thickness ratio: of a flat shape, and of one that has no symmetry
+/// left to break.
+const SLIGHT: f64 = 0.3;
+const SLIGHT_IF_CURVED: f64 = 0.02;
 
 impl Path {
     /// The way from the known shape on a mesh.
@@ -258,7 +274,8 @@ impl Path {
 
     fn at_rest(mesh: &Mesh<'_>, strain: &Strains<'_>, size: f64, winds: bool) -> Result<Self, InvalidInput> {
         let problem = mesh.problem;
-        let flawed = |s: f64| strain(s) + imperfection(s / problem.length, problem.length) * size;
+        let flaw = imperfection(problem, &strain(0.5 * problem.length))?;
+        let flawed = |s: f64| strain(s) + flaw(s) * size;
         let start = if winds { problem.ends[0] } else { problem.goal(&problem.ends[0]) };
         let mut nodes = vec![at_rest(start.position, start.rotation)];
         let mut stepper = Stepper::new(problem, mesh.gauss)?;

@@ -119,6 +119,8 @@ pub struct Eliminated {
     swaps: Vec<usize>,
     /// Derivatives of the outputs in the strains, `outputs x 4 s`.
     readout: Vec<f64>,
+    /// Derivative of the lever in the direction of the load at fixed strains.
+    pub lever: Matrix3<f64>,
     /// Derivatives of the outputs (arm, rotation, lever) in the inputs (`N`, `M`, direction of the load).
     pub flexibility: Vec<f64>,
     /// The least relative pivot.
@@ -126,7 +128,7 @@ pub struct Eliminated {
 }
 
 /// Change of the outputs of an element.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Change {
     /// Of the position of its end.
     pub arm: Vector,
@@ -278,7 +280,7 @@ impl Stages {
         }
     }
 
-    /// Linearises about the stages just evaluated and eliminates the strains.
+    /// Linearises about the stages just evaluated.
     #[expect(clippy::needless_range_loop, reason = "indices of stages, as in the equations")]
     pub fn linearise(&mut self, span: &Span<'_>, exit: &Exit, strains: &[Strain], into: &mut Eliminated) {
         let (h, s) = (span.length, span.gauss.degree);
@@ -406,25 +408,10 @@ impl Stages {
                 }
             }
         }
-        into.pivot = eliminate(&mut into.block, stride, size, &mut into.swaps);
-        into.solve_inputs();
-        into.flexibility.clear();
-        for row in into.readout.chunks_exact(size) {
-            for input in 0..inputs {
-                let column = into.block[size + input..].iter().step_by(stride);
-                into.flexibility.push(-row.iter().zip(column).map(|(x, y)| x * y).sum::<f64>());
-            }
-        }
-        if loaded {
-            // The lever turns with the load itself, too.
-            for input in 0..3 {
-                let unit = Vector::ith(input, 1.0);
-                let own: Vector =
-                    (0..s).map(|k| self.arm[k].cross(&span.load[k].0.cross(&unit)) * (h * b[k])).sum();
-                for i in 0..3 {
-                    into.flexibility[(6 + i) * inputs + 6 + input] += own[i];
-                }
-            }
+        // The lever turns with the load itself, too.
+        into.lever = Matrix3::zeros();
+        for (arm, ((p, _), weight)) in self.arm.iter().zip(span.load.iter().zip(b)) {
+            into.lever += arm.cross_matrix() * p.cross_matrix() * (h * weight);
         }
     }
 }
@@ -432,6 +419,44 @@ impl Stages {
 impl Eliminated {
     fn stages(&self) -> usize {
         self.swaps.len() / 4
+    }
+
+    /// Eliminates the strains: factorises their Jacobian, and reduces what the outputs owe them to the inputs.
+    pub fn eliminate(&mut self) {
+        let (size, stride) = (self.swaps.len(), self.swaps.len() + self.inputs);
+        self.pivot = eliminate(&mut self.block, stride, size, &mut self.swaps);
+        self.solve_inputs();
+        self.flexibility.clear();
+        for row in self.readout.chunks_exact(size) {
+            for input in 0..self.inputs {
+                let column = self.block[size + input..].iter().step_by(stride);
+                self.flexibility.push(-row.iter().zip(column).map(|(x, y)| x * y).sum::<f64>());
+            }
+        }
+        let loaded = self.loaded();
+        for (i, k) in (0..3).flat_map(|i| (0..3).map(move |k| (i, k))).filter(|_| loaded) {
+            self.flexibility[(6 + i) * self.inputs + 6 + k] += self.lever[(i, k)];
+        }
+    }
+
+    /// The Jacobian of the stages and, beside it, its columns for the inputs: rows of [`Eliminated::width`] numbers,
+    /// as long as the strains are not eliminated.
+    #[must_use]
+    pub fn jacobian(&self) -> &[f64] {
+        &self.block
+    }
+
+    /// Number of strains and inputs.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.swaps.len() + self.inputs
+    }
+
+    /// What the strains do to an output: three rows, of its components, of a number a strain.
+    #[must_use]
+    pub fn readout(&self, output: usize) -> [&[f64]; 3] {
+        let size = self.swaps.len();
+        std::array::from_fn(|i| &self.readout[(3 * output + i) * size..(3 * output + i + 1) * size])
     }
 
     /// Back substitution of all inputs at once, row by row.
@@ -484,9 +509,12 @@ impl Eliminated {
         }
     }
 
-    /// A 3 x 3 block of the flexibility.
+    /// A 3 x 3 block of the flexibility; zero for a lever or a load that is not there.
     #[must_use]
     pub fn flexibility_block(&self, output: usize, input: usize) -> Matrix3<f64> {
+        if 3 * output >= self.outputs || 3 * input >= self.inputs {
+            return Matrix3::zeros();
+        }
         Matrix3::from_fn(|i, k| self.flexibility[(3 * output + i) * self.inputs + 3 * input + k])
     }
 

@@ -11,7 +11,8 @@
 //! |---|---|
 //! | `problem`, `ends`, `law` | what is given |
 //! | `gauss`, `element` | one element: stages, linearisation, elimination of its strains |
-//! | `chain`, `dense` | elimination of the nodes |
+//! | `transfer`, `chain`, `dense` | elimination of the nodes |
+//! | `sparse` | the same without elimination, by faer |
 //! | `mesh`, `iterate`, `system` | all elements: unknowns, residual, Jacobian |
 //! | `newton`, `path` | the nonlinear equations, from a known shape |
 //! | `step`, `adapt` | dense output, errors and meshes |
@@ -33,8 +34,10 @@ mod path;
 mod problem;
 mod solution;
 mod solve;
+mod sparse;
 mod step;
 mod system;
+mod transfer;
 
 pub use ends::{At, End, Hold};
 pub use gauss::MAX_DEGREE;

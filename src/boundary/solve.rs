@@ -197,7 +197,8 @@ pub fn solve(problem: &Problem, settings: &Settings, guess: Option<&Guess>) -> R
         } else {
             unfinished(mesh, reached, &spent)
         };
-        if solved.report.status.is_solved() {
+        // A mesh that is given is not made finer.
+        if solved.report.status.is_solved() || !settings.adaptive {
             return Ok(solved);
         }
         if best.as_ref().is_none_or(|b| solved.report.fraction > b.report.fraction) {
@@ -340,7 +341,7 @@ fn adapted<'p>(
         let stalled = before.is_some_and(|(e, n)| error > 0.5 * e && error < 1e-6 && count > n);
         let status = if error <= settings.tolerance {
             Some(Status::Converged)
-        } else if stalled || (!settings.adaptive && error <= 1e-6) {
+        } else if stalled {
             Some(Status::RoundingLimited)
         } else if !settings.adaptive
             || count >= settings.most_elements

@@ -93,6 +93,7 @@ impl<'p> Stepper<'p> {
             for _ in 0..ITERATIONS {
                 let exit = self.stages.evaluate(&span, &entry, strains);
                 self.stages.linearise(&span, &exit, strains, &mut self.eliminated);
+                self.eliminated.eliminate();
                 let mut changes = [Strain::zeros(); MAX_DEGREE];
                 self.eliminated.solve(&self.stages.residual, &mut changes[..degree]);
                 let size = changes[..degree].iter().map(|e| e.amax()).fold(0.0, f64::max);

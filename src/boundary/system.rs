@@ -1,31 +1,18 @@
 //! The discrete equations: residual, Jacobian and corrections.
-//!
-//! With the strains eliminated ([`super::element`]) an element says how its end follows from its start: with `L`, `f`
-//! and `g` the units of length, force and moment, `u_N = f nu - phi x N`, `u_M = dM - phi x M`, `u_p = phi` and the
-//! flexibility `E`,
-//!
-//! ```text
-//!                 rho_i                phi_i                      nu                      gamma
-//! rho_{i+1} = [ I + E_rM L [N x]/L   (-[arm x] + Q_r)/L   f (E_rN - E_rM [r x])/L   g E_rM/L ]
-//! phi_{i+1} = [ T E_fM L [N x]       T (I + Q_f)          f T (E_fN - E_fM [r x])   g T E_fM ]
-//! gamma_{i+1} = [ (L/g)([D x] - E_lM [N x])   ([lever x] - Q_l)/g   -(f/g)(E_lN - E_lM [r x])   I - E_lM ]
-//! ```
-//!
-//! with `Q_. = E_.N [N x] + E_.M [M x] + E_.p`, `D` the force distributed over the element, and `T` the rotation that is
-//! left between the end of the element and the next node. These are the blocks of [`Chain`].
 
-use nalgebra::{Matrix3, Quaternion, SMatrix, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 use super::chain::{Border, Chain};
 use super::element::{Change, Eliminated, Entry, Exit, Span, Stages};
 use super::ends::{Condition, End, Units, conditions, half_angle};
 use super::iterate::{Correction, Iterate, Layout, settle};
 use super::mesh::Mesh;
+use super::sparse::{Blocks, Sparse};
+use super::transfer::{Anchor, Flexibility, cayley, joined, transfer};
 use crate::InvalidInput;
 use crate::section::Strain;
 
 type Vector = Vector3<f64>;
-type Rows = SMatrix<f64, 9, 12>;
 
 /// What is asked of the ribbon on the way to a solution.
 #[derive(Clone, Debug)]
@@ -50,19 +37,12 @@ pub struct System<'m, 'p> {
     anchors: Vec<Anchor>,
     chain: Chain,
     border: Option<Border>,
+    /// In place of the chain, where the stages of an element are singular.
+    sparse: Option<Sparse>,
     residual: Residual,
     load: Vec<(Vector, Vector)>,
     /// How often the Jacobian was factorised.
     pub factorisations: usize,
-}
-
-/// Where an element was linearised.
-#[derive(Clone, Copy, Debug)]
-struct Anchor {
-    position: Vector,
-    force: Vector,
-    moment: Vector,
-    turn: Matrix3<f64>,
 }
 
 /// The residual: of the law at the stages, of continuity, and minus that of the end conditions.
@@ -74,6 +54,17 @@ struct Residual {
     end: [f64; 6],
 }
 
+/// What is done with the equations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pass {
+    /// Their residual is evaluated.
+    Residual,
+    /// They are linearised, and the strains and then the nodes eliminated.
+    Condensed,
+    /// They are linearised as they are.
+    Sparse,
+}
+
 /// Relative pivots below this are singular.
 const SINGULAR: f64 = 1e-15;
 
@@ -83,6 +74,9 @@ pub enum Failure {
     /// A zero pivot.
     #[error("the equations are singular {0}")]
     Singular(String),
+    /// The strains of an element cannot be eliminated.
+    #[error("the stages at S = {0:.6} are singular")]
+    SingularStages(f64),
     /// Not a number, or infinite.
     #[error("a number is not finite {0}")]
     NotFinite(String),
@@ -115,6 +109,7 @@ impl<'m, 'p> System<'m, 'p> {
             anchors: Vec::with_capacity(mesh.elements()),
             chain,
             border: None,
+            sparse: None,
             residual: Residual::default(),
             load: Vec::new(),
             factorisations: 0,
@@ -126,7 +121,7 @@ impl<'m, 'p> System<'m, 'p> {
     /// # Errors
     /// A residual that is not finite, a section that is refused.
     pub fn evaluate(&mut self, x: &Iterate, targets: &Targets) -> Result<(), Failure> {
-        self.pass(x, targets, false)
+        self.pass(x, targets, Pass::Residual)
     }
 
     /// Evaluates the residual and factorises the Jacobian at `x`.
@@ -135,10 +130,30 @@ impl<'m, 'p> System<'m, 'p> {
     /// A singular Jacobian, a residual that is not finite, a section that is refused.
     pub fn linearise(&mut self, x: &Iterate, targets: &Targets) -> Result<(), Failure> {
         self.factorisations += 1;
-        self.pass(x, targets, true)
+        self.sparse = None;
+        match self.pass(x, targets, Pass::Condensed) {
+            Err(Failure::SingularStages(_)) => self.linearise_sparsely(x, targets),
+            done => done,
+        }
     }
 
-    fn pass(&mut self, x: &Iterate, targets: &Targets, linearise: bool) -> Result<(), Failure> {
+    /// The same by one sparse matrix, which pivots across elements.
+    ///
+    /// # Errors
+    /// As [`System::linearise`].
+    pub fn linearise_sparsely(&mut self, x: &Iterate, targets: &Targets) -> Result<(), Failure> {
+        let (n, m) = (self.layout.states().len(), self.layout.constants().len());
+        let strains = 4 * self.mesh.gauss.degree;
+        self.border = None;
+        self.sparse = Some(Sparse::new(n, m, strains, self.mesh.elements()));
+        self.pass(x, targets, Pass::Sparse)?;
+        if self.sparse.as_mut().is_some_and(Sparse::factorise) {
+            return Ok(());
+        }
+        Err(Failure::Singular("as a whole".to_owned()))
+    }
+
+    fn pass(&mut self, x: &Iterate, targets: &Targets, pass: Pass) -> Result<(), Failure> {
         let count = self.mesh.elements();
         self.residual.gaps.clear();
         self.residual.strains.clear();
@@ -148,13 +163,17 @@ impl<'m, 'p> System<'m, 'p> {
         });
         self.residual.start = start.map(|(_, rhs)| rhs);
         self.residual.end = end.map(|(_, rhs)| rhs);
-        if linearise {
+        if pass != Pass::Residual {
             self.anchors.clear();
-            self.chain.start(&self.placed(&start));
+            let start = self.placed(&start);
+            match &mut self.sparse {
+                Some(sparse) => sparse.conditions(0, &start),
+                None => self.chain.start(&start),
+            }
         }
         for i in 0..count {
-            let exit = self.enter(x, targets, i, linearise)?;
-            self.join(x, targets, i, &exit, linearise);
+            let exit = self.enter(x, targets, i, pass)?;
+            self.join(x, targets, i, &exit, pass);
         }
         if let Some(border) = &self.border {
             for (slack, column) in x.slack.iter().zip(&border.slack) {
@@ -166,8 +185,13 @@ impl<'m, 'p> System<'m, 'p> {
         if !finite {
             return Err(Failure::NotFinite("in the residual".to_owned()));
         }
-        if linearise {
-            let end = self.placed(&end);
+        if pass == Pass::Residual {
+            return Ok(());
+        }
+        let end = self.placed(&end);
+        if let Some(sparse) = &mut self.sparse {
+            sparse.conditions(count, &end);
+        } else {
             // On the way what the law is violated by tells the places along the ribbon apart.
             if !(targets.offset.is_empty() && self.mesh.problem.glides()) {
                 self.border = None;
@@ -183,7 +207,7 @@ impl<'m, 'p> System<'m, 'p> {
     }
 
     /// The stages of an element: their residual and, if asked, the elimination of its strains.
-    fn enter(&mut self, x: &Iterate, targets: &Targets, i: usize, linearise: bool) -> Result<Exit, Failure> {
+    fn enter(&mut self, x: &Iterate, targets: &Targets, i: usize, pass: Pass) -> Result<Exit, Failure> {
         let (mesh, s) = (self.mesh, self.mesh.gauss.degree);
         let at = &x.nodes[i];
         let mut made = Vec::new();
@@ -207,20 +231,23 @@ impl<'m, 'p> System<'m, 'p> {
         let strains = &x.strains[stages];
         let exit = self.stages.evaluate(&span, &entry, strains);
         self.residual.strains.extend_from_slice(&self.stages.residual[..s]);
-        if linearise {
+        if pass != Pass::Residual {
             let element = &mut self.elements[i];
             self.stages.linearise(&span, &exit, strains, element);
-            if !(element.pivot > SINGULAR) {
-                return Err(Failure::Singular(format!("at S = {:.6}", mesh.nodes[i])));
+            if pass == Pass::Condensed {
+                element.eliminate();
+                if !(element.pivot > SINGULAR) {
+                    return Err(Failure::SingularStages(mesh.nodes[i]));
+                }
             }
         }
         Ok(exit)
     }
 
     /// The continuity of an element with the next node.
-    fn join(&mut self, x: &Iterate, targets: &Targets, i: usize, exit: &Exit, linearise: bool) {
+    fn join(&mut self, x: &Iterate, targets: &Targets, i: usize, exit: &Exit, pass: Pass) {
         let (at, next) = (&x.nodes[i], &x.nodes[i + 1]);
-        let Units { length, force: unit_force, moment: unit_moment } = self.units;
+        let Units { length, moment: unit_moment, .. } = self.units;
         let point = self.mesh.points[i + 1].map(|(f, m)| (targets.load * f, targets.load * m));
         let (jump, couple) = point.unwrap_or((Vector::zeros(), Vector::zeros()));
         let left_over = exit.rotation * next.rotation.conjugate();
@@ -235,13 +262,21 @@ impl<'m, 'p> System<'m, 'p> {
         gap[3..6].copy_from_slice((2.0 * half).as_slice());
         gap[6..].copy_from_slice(about_origin.as_slice());
         self.residual.gaps.push(gap);
-        if !linearise {
+        if pass == Pass::Residual {
             return;
         }
         let anchor =
             Anchor { position: at.position, force: at.force, moment: at.moment(), turn: cayley(&left_over) };
         self.anchors.push(anchor);
-        let rows = transfer(&self.elements[i], &anchor, exit, &self.units);
+        let element = &self.elements[i];
+        let none = || Matrix3::zeros();
+        let flexibility: Flexibility = match pass {
+            Pass::Condensed => {
+                std::array::from_fn(|o| std::array::from_fn(|k| element.flexibility_block(o, k)))
+            }
+            _ => [[none(); 3], [none(); 3], [none(), none(), element.lever]],
+        };
+        let rows = transfer(&flexibility, &anchor, exit, &self.units);
         let (states, constants) = (self.layout.states(), self.layout.constants());
         let n = states.len();
         let (mut a, mut b, mut j) = (Vec::with_capacity(n * n), Vec::new(), vec![0.0; n * n]);
@@ -262,15 +297,57 @@ impl<'m, 'p> System<'m, 'p> {
                 j[(6 + row) * n + column] = turning[(row, column)];
             }
         }
-        self.chain.push(&a, &j, &b);
+        let own = self.sparse.is_some().then(|| self.uneliminated(i, &anchor));
+        match (&mut self.sparse, own) {
+            (Some(sparse), Some([jacobian, inputs, readout])) => {
+                sparse.element(i, &Blocks { jacobian, inputs, readout, continuity: [&a, &j, &b] });
+            }
+            _ => self.chain.push(&a, &j, &b),
+        }
         if point.is_some() && self.layout == Layout::Constant {
             let mut k = vec![0.0; 6 * n];
             for (row, column) in (0..3).flat_map(|row| (0..3).map(move |column| (row, column))) {
                 k[(3 + row) * n + column] = turning[(row, column)];
             }
-            self.chain.jump(k);
+            match &mut self.sparse {
+                Some(sparse) => sparse.jump(i + 1, k),
+                None => self.chain.jump(k),
+            }
         }
-        debug_assert!(unit_force > 0.0);
+    }
+
+    /// Of an element whose strains are not eliminated: the derivatives of the law in the strains, and in states and
+    /// constants, and of the states at the end in the strains.
+    fn uneliminated(&self, i: usize, anchor: &Anchor) -> [Vec<f64>; 3] {
+        let element = &self.elements[i];
+        let strains = 4 * self.mesh.gauss.degree;
+        let columns = self.layout.states().iter().chain(self.layout.constants());
+        // What a unit change at the start is to the element.
+        let changes: Vec<[f64; 9]> = columns
+            .map(|&column| {
+                let mut change = [0.0; 12];
+                change[column] = 1.0;
+                anchor.inputs(&change, &self.units)
+            })
+            .collect();
+        let (mut jacobian, mut inputs) = (Vec::new(), Vec::new());
+        for row in element.jacobian().chunks_exact(element.width()) {
+            let (own, by_input) = row.split_at(strains);
+            jacobian.extend_from_slice(own);
+            inputs.extend(changes.iter().map(|u| by_input.iter().zip(u).map(|(x, u)| x * u).sum::<f64>()));
+        }
+        let mut readout = Vec::new();
+        let [arm, turn] = [0, 1].map(|output| element.readout(output));
+        for &state in self.layout.states() {
+            let value = |k: usize| match state {
+                0..3 => arm[state][k] / self.units.length,
+                3..6 => (0..3).map(|c| anchor.turn[(state - 3, c)] * turn[c][k]).sum(),
+                9.. if element.loaded() => -element.readout(2)[state - 9][k] / self.units.moment,
+                _ => 0.0,
+            };
+            readout.extend((0..strains).map(value));
+        }
+        [jacobian, inputs, readout]
     }
 
     /// The columns of conditions, states first.
@@ -289,7 +366,10 @@ impl<'m, 'p> System<'m, 'p> {
         let mut rhs = Vec::with_capacity(n * count);
         for i in 0..count {
             let own = i * s..(i + 1) * s;
-            let change = self.elements[i].solve(&self.residual.strains[own.clone()], &mut strains[own]);
+            let mut change = Change::default();
+            if self.sparse.is_none() {
+                change = self.elements[i].solve(&self.residual.strains[own.clone()], &mut strains[own]);
+            }
             let full = joined(&self.residual.gaps[i], &change, &self.anchors[i].turn, &self.units);
             rhs.extend(states.iter().map(|&state| match state {
                 0..6 => full[state],
@@ -297,7 +377,20 @@ impl<'m, 'p> System<'m, 'p> {
                 _ => full[state - 3],
             }));
         }
-        let changes = self.chain.solve(&self.residual.start, &rhs, &self.residual.end);
+        let Residual { start, end, .. } = &self.residual;
+        let changes = match &self.sparse {
+            None => self.chain.solve(start, &rhs, end),
+            Some(sparse) => {
+                let law: Vec<f64> = self.residual.strains.iter().flat_map(|c| (-c).data.0[0]).collect();
+                let Some((changes, own)) = sparse.solve(start, &law, &rhs, end) else {
+                    return self.no_correction();
+                };
+                for (strain, own) in strains.iter_mut().zip(own.chunks_exact(4)) {
+                    *strain = Strain::from_column_slice(own);
+                }
+                changes
+            }
+        };
         let m = constants.len();
         let node = |i: usize| {
             let mut change = [0.0; 12];
@@ -310,11 +403,17 @@ impl<'m, 'p> System<'m, 'p> {
             change
         };
         let nodes: Vec<[f64; 12]> = (0..=count).map(node).collect();
-        for i in 0..count {
+        for i in (0..count).filter(|_| self.sparse.is_none()) {
             let inputs = self.anchors[i].inputs(&nodes[i], &self.units);
             self.elements[i].respond(&inputs, &mut strains[i * s..(i + 1) * s]);
         }
         Correction { nodes, strains, slack: changes.slack }
+    }
+
+    /// None, which no norm mistakes for small.
+    fn no_correction(&self) -> Correction {
+        let nodes = vec![[f64::NAN; 12]; self.mesh.elements() + 1];
+        Correction { nodes, strains: vec![Strain::zeros(); self.mesh.stages()], slack: Default::default() }
     }
 
     /// The correction that gives each element another end: what its position, rotation and moment about the origin
@@ -345,77 +444,6 @@ impl<'m, 'p> System<'m, 'p> {
     }
 }
 
-impl Anchor {
-    /// The inputs of an element from the change at its start.
-    fn inputs(&self, change: &[f64; 12], units: &Units) -> [f64; 9] {
-        let vector = |i| Vector::new(change[i], change[i + 1], change[i + 2]);
-        let (shift, turn) = (units.length * vector(0), vector(3));
-        let (force, about_origin) = (units.force * vector(6), units.moment * vector(9));
-        let moment = about_origin - shift.cross(&self.force) - self.position.cross(&force);
-        let (force, moment) = (force - turn.cross(&self.force), moment - turn.cross(&self.moment));
-        [force, moment, turn].map(|v| [v.x, v.y, v.z]).concat().try_into().unwrap_or([f64::NAN; 9])
-    }
-}
-
-/// The matrix of the module's header.
-fn transfer(element: &Eliminated, anchor: &Anchor, exit: &Exit, units: &Units) -> Rows {
-    let Units { length, force, moment } = *units;
-    let (n, m) = (anchor.force.cross_matrix(), anchor.moment.cross_matrix());
-    let r = anchor.position.cross_matrix();
-    let mut rows = Rows::zeros();
-    let outputs = if element.loaded() { 3 } else { 2 };
-    for output in 0..outputs {
-        let by_force = element.flexibility_block(output, 0);
-        let by_moment = element.flexibility_block(output, 1);
-        let mut by_turn = by_force * n + by_moment * m;
-        if element.loaded() {
-            by_turn += element.flexibility_block(output, 2);
-        }
-        let mut blocks =
-            [by_moment * n * length, by_turn, (by_force - by_moment * r) * force, by_moment * moment];
-        for block in &mut blocks {
-            match output {
-                0 => *block /= length,
-                1 => *block = anchor.turn * *block,
-                _ => *block /= -moment,
-            }
-        }
-        for (i, block) in blocks.iter().enumerate() {
-            rows.fixed_view_mut::<3, 3>(3 * output, 3 * i).copy_from(block);
-        }
-    }
-    let mut add = |output: usize, input: usize, block: Matrix3<f64>| {
-        let mut view = rows.fixed_view_mut::<3, 3>(3 * output, 3 * input);
-        view += block;
-    };
-    add(0, 0, Matrix3::identity());
-    add(0, 1, -exit.arm.cross_matrix() / length);
-    add(1, 1, anchor.turn);
-    add(2, 0, exit.force_drop.cross_matrix() * (length / moment));
-    add(2, 1, exit.lever.cross_matrix() / moment);
-    add(2, 3, Matrix3::identity());
-    rows
-}
-
-/// A gap and what eliminating the strains adds to it.
-fn joined(gap: &[f64; 9], change: &Change, turn: &Matrix3<f64>, units: &Units) -> [f64; 9] {
-    let (arm, rotation) = (change.arm / units.length, turn * change.rotation);
-    let lever = change.lever / units.moment;
-    std::array::from_fn(|i| match i {
-        0..3 => gap[i] + arm[i],
-        3..6 => gap[i] + rotation[i - 3],
-        _ => gap[i] - lever[i - 6],
-    })
-}
-
-/// `(I + t x)^-1 (I - t x)` with `t` the half angle: the rotation back by `w`.
-fn cayley(w: &Quaternion<f64>) -> Matrix3<f64> {
-    let t = half_angle(w);
-    let x = t.cross_matrix();
-    let scale = 2.0 / (1.0 + t.norm_squared());
-    Matrix3::identity() + (x * x - x) * scale
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -426,6 +454,7 @@ mod tests {
     use crate::growth::Growth;
     use crate::material::PlaneStress;
     use crate::section::{Amplitude, Form, RibbonLaw, RibbonSpec};
+    use nalgebra::Quaternion;
 
     /// Reproducible numbers in [-1, 1].
     struct Numbers(u64);
@@ -512,6 +541,39 @@ mod tests {
             end
         });
         strains.chain(gaps).chain(ends).collect()
+    }
+
+    /// The chain and faer's sparse LU give the same corrections.
+    #[test]
+    fn the_sparse_matrix_gives_the_same() {
+        let mut numbers = Numbers(7);
+        for (holds, force, layout) in [
+            ([Hold::Clamped, Hold::Free], false, Layout::Constant),
+            ([Hold::Hinged(0), Hold::Clamped], false, Layout::Constant),
+            ([Hold::Clamped, Hold::Clamped], true, Layout::Moment),
+            ([Hold::Pinned, Hold::Sliding(Vector::z())], false, Layout::Full),
+        ] {
+            let problem = problem(holds, force, &mut numbers);
+            let nodes = vec![0.0, 1.0, 2.0, 3.5, 5.0, 7.0];
+            let mesh = Mesh::new(&problem, nodes, 3).unwrap();
+            let mut system = System::with_layout(&mesh, layout).unwrap();
+            let mut x = iterate(&mesh, &mut numbers);
+            let ends = [0, 1].map(|i| problem.goal(&problem.ends[i]));
+            let targets = Targets { ends, load: 0.7, offset: Vec::new() };
+            system.settle(&mut x, targets.load);
+            system.linearise(&x, &targets).unwrap();
+            let by_chain = system.correction();
+            system.linearise_sparsely(&x, &targets).unwrap();
+            let by_faer = system.correction();
+            let size = by_chain.norm(&mesh);
+            for (a, b) in by_chain.nodes.iter().flatten().zip(by_faer.nodes.iter().flatten()) {
+                // The condition of random states times rounding.
+                assert!((a - b).abs() < 1e-9 * size, "{holds:?} {layout:?}: {a} {b}");
+            }
+            for (a, b) in by_chain.strains.iter().zip(&by_faer.strains) {
+                assert!((a - b).amax() < 1e-9 * size, "{holds:?} {layout:?}");
+            }
+        }
     }
 
     /// Along the Newton correction the residual changes by minus itself.

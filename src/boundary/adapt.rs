@@ -141,8 +141,8 @@ pub fn refined(mesh: &Mesh<'_>, estimate: &Estimate, tolerance: f64) -> Vec<f64>
         let first = mesh.nodes.partition_point(|&s| s < pair[0]);
         let last = mesh.nodes.partition_point(|&s| s < pair[1]);
         let mut sums = vec![0.0];
-        for i in first..last {
-            sums.push(sums[sums.len() - 1] + density[i] * mesh.length(i));
+        for (i, density) in (first..last).zip(&density[first..last]) {
+            sums.push(sums[sums.len() - 1] + density * mesh.length(i));
         }
         let parts = sums[sums.len() - 1].ceil().max(1.0) as usize;
         for part in 1..parts {

@@ -26,6 +26,8 @@
 //! is eliminated with pivoting, a singular tangent stiffness at a stage notwithstanding. What is left is the
 //! flexibility of the element: the change of its end pose with the wrench.
 
+#![expect(clippy::needless_range_loop, reason = "indices of stages, as in the equations")]
+
 use nalgebra::{Matrix3, Matrix4, Quaternion, Vector3};
 
 use super::dense::{backward, eliminate, forward};
@@ -281,7 +283,6 @@ impl Stages {
     }
 
     /// Linearises about the stages just evaluated.
-    #[expect(clippy::needless_range_loop, reason = "indices of stages, as in the equations")]
     pub fn linearise(&mut self, span: &Span<'_>, exit: &Exit, strains: &[Strain], into: &mut Eliminated) {
         let (h, s) = (span.length, span.gauss.degree);
         let (a, b) = (&span.gauss.integral, &span.gauss.weights);

@@ -362,7 +362,7 @@ fn guess_from((s, strains, position, rotation, force, moment): &GuessArrays<'_>)
         (force, moment) = (vec![[0.0; 3]; s.len()], vec![[0.0; 3]; s.len()]);
     }
     let lengths = [strains.len(), position.len(), rotation.len(), force.len(), moment.len()];
-    if s.len() < 2 || lengths.iter().any(|&n| n != s.len()) || s.windows(2).any(|w| !(w[0] < w[1])) {
+    if s.len() < 2 || lengths.iter().any(|&n| n != s.len()) || !s.windows(2).all(|w| w[0] < w[1]) {
         let found = format!("{} places, {lengths:?} rows", s.len());
         return Err(
             InvalidInput::new("guess", found, "ascending places, two or more, and as many rows").into()

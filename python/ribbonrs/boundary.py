@@ -72,6 +72,12 @@ def equilibrium(
     if solution.status == "rounding_limited":
         message = f"tol = {tol:g} is below rounding: the error is about {solution.error:.1e}"
         warnings.warn(message, RibbonWarning, stacklevel=4)
+    if guess is None and solution.section_index > 0:
+        message = (
+            f"section_index = {solution.section_index}: the state is unstable where its sections are; "
+            "a stable one, if there is one, may have kinks"
+        )
+        warnings.warn(message, RibbonWarning, stacklevel=4)
     return _state(scene, solution, tol, n)
 
 

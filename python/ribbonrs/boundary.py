@@ -120,8 +120,8 @@ def _strains(guess: ArrayLike) -> Array:
 def _unstretched(scene: Scene, strains: Array, S: Array) -> Array:
     """Strains with the same K2 and K3, and eps and K1 such that n3 = m1 = 0: a guess is for the soft ones."""
     if isinstance(scene.law, LinearLaw):
-        eps, K1 = scene.law.intrinsic[:2]
-        return np.column_stack([np.full((S.size, 2), [eps, K1]), strains[:, 2:]])
+        # Of a rod all curvatures may be soft.
+        return np.column_stack([np.full(S.size, scene.law.intrinsic[0]), strains[:, 1:]])
     law = scene.section_law
     # The energy is quadratic in eps and K1, which do not meet.
     gradient, hessian = law.gradient(strains, S), law.hessian(strains, S)

@@ -170,15 +170,18 @@ class State:
 
     @property
     def index(self) -> float | None:
-        """Number of unstable directions: infinite where the section itself is unstable, else 0.
+        """Number of independent ways to lower the energy as the ends are held; infinite where a section is.
 
         The law has no strain gradient, so an unstable section is unstable against arbitrarily short
-        variations. Of a ribbon that is loaded or held it is None where sections are stable: this version does
-        not compute the index under end conditions.
+        variations. None where loads have no potential: moments that are fixed in space, unless about a hinge.
+        Gliding and rolling of a closed ribbon along and about itself change nothing and do not count.
         """
         if self.section_index > 0:
             return math.inf
-        return None if isinstance(self.course, Held) else 0.0
+        if not isinstance(self.course, Held):
+            return 0.0
+        index = self.course.solution.index
+        return None if index is None else float(index)
 
     @property
     def strains(self) -> Array:

@@ -153,9 +153,11 @@ def _handed(state: State) -> str:
 
 def _stability(state: State) -> str:
     if state.stable is None:
-        return "not known under these ends and loads; each section is stable (section_index 0)"
+        return "not defined, as the loads have no potential; each section is stable (section_index 0)"
     if state.stable:
         return "stable (section_index 0)"
+    if state.section_index == 0:
+        return f"unstable (index {state.index:.0f})"
     return f"unstable (section_index {state.section_index})"
 
 

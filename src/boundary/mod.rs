@@ -17,6 +17,7 @@
 //! | `newton`, `path` | the nonlinear equations, from a known shape |
 //! | `step`, `adapt` | dense output, errors and meshes |
 //! | `check` | an independent residual |
+//! | `stability` | the index under the end conditions |
 //! | `solve`, `solution` | the whole, and what it gives |
 
 mod adapt;
@@ -35,6 +36,7 @@ mod problem;
 mod solution;
 mod solve;
 mod sparse;
+mod stability;
 mod step;
 mod system;
 mod transfer;

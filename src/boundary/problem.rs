@@ -105,10 +105,16 @@ impl Problem {
         self.line.force.iter().any(acts)
     }
 
+    /// Whether a couple acts along the ribbon.
+    #[must_use]
+    pub fn has_line_couple(&self) -> bool {
+        self.line.moment.iter().any(acts)
+    }
+
     /// Whether a force or a couple acts along the ribbon.
     #[must_use]
     pub fn has_line_load(&self) -> bool {
-        self.has_line_force() || self.line.moment.iter().any(acts)
+        self.has_line_force() || self.has_line_couple()
     }
 
     /// Whether the ribbon is the same everywhere, unloaded, and clamped to itself, so that it may glide along itself: the

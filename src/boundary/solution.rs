@@ -12,6 +12,7 @@ use super::path::Guess;
 use super::problem::Problem;
 use super::solve::{Report, Settings, solve};
 use super::step::{Stepper, pointwise};
+use super::system::{System, Targets};
 use crate::InvalidInput;
 use crate::section::Strain;
 
@@ -32,6 +33,9 @@ pub struct Solution {
     pub load_potential: f64,
     /// Largest number of negative eigenvalues of the tangent stiffness of a section, at stages and nodes.
     pub section_index: usize,
+    /// Number of independent ways to lower the energy under the end conditions, where every section is stable and the
+    /// loads have a potential; gliding and rolling of a closed ribbon are none.
+    pub index: Option<usize>,
 }
 
 /// The state of one section.
@@ -157,8 +161,15 @@ impl Solution {
                 load_potential -= end.force.dot(&at.position);
             }
         }
+        let index = if section_index == 0 && report.fraction == 1.0 {
+            let goal = [0, 1].map(|i| problem.goal(&problem.ends[i]));
+            let targets = Targets { ends: goal, load: 1.0, offset: Vec::new() };
+            System::new(&mesh)?.index(&x, &targets)
+        } else {
+            None
+        };
         let nodes = mesh.nodes;
-        Ok(Self { problem, degree, nodes, x, report, energy, load_potential, section_index })
+        Ok(Self { problem, degree, nodes, x, report, energy, load_potential, section_index, index })
     }
 
     /// The problem.

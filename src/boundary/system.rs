@@ -10,7 +10,8 @@ use super::ends::{Condition, End, Units, conditions, half_angle};
 use super::iterate::{Correction, Iterate, Layout, settle};
 use super::mesh::Mesh;
 use super::sparse::{Blocks, Sparse};
-use super::transfer::{Anchor, Flexibility, cayley, joined, transfer};
+use super::stability::{Place, index};
+use super::transfer::{Anchor, Flexibility, Rows, cayley, joined, transfer};
 use crate::InvalidInput;
 use crate::section::Strain;
 
@@ -41,6 +42,8 @@ pub struct System<'m, 'p> {
     border: Option<Border>,
     /// In place of the chain, where the stages of an element are singular.
     sparse: Option<Sparse>,
+    /// Of the elements, if they are asked for.
+    transfers: Option<Vec<Rows>>,
     residual: Residual,
     load: Vec<(Vector, Vector)>,
     /// How often the Jacobian was factorised.
@@ -112,6 +115,7 @@ impl<'m, 'p> System<'m, 'p> {
             chain,
             border: None,
             sparse: None,
+            transfers: None,
             residual: Residual::default(),
             load: Vec::new(),
             factorisations: 0,
@@ -279,6 +283,9 @@ impl<'m, 'p> System<'m, 'p> {
             _ => [[none(); 3], [none(); 3], [none(), none(), element.lever]],
         };
         let rows = transfer(&flexibility, &anchor, exit, &self.units);
+        if let Some(kept) = &mut self.transfers {
+            kept.push(rows);
+        }
         let (states, constants) = (self.layout.states(), self.layout.constants());
         let n = states.len();
         let (mut a, mut b, mut j) = (Vec::with_capacity(n * n), Vec::new(), vec![0.0; n * n]);
@@ -426,6 +433,28 @@ impl<'m, 'p> System<'m, 'p> {
         self.residual.gaps = defects;
         (self.residual.start, self.residual.end) = ([0.0; 6], [0.0; 6]);
         self.correction()
+    }
+
+    /// The stability index of a solution under the end conditions, where its sections are stable and its loads have a
+    /// potential; `None` where it cannot be told.
+    pub fn index(&mut self, x: &Iterate, targets: &Targets) -> Option<usize> {
+        if !self.mesh.problem.is_conservative() {
+            return None;
+        }
+        self.sparse = None;
+        self.transfers = Some(Vec::with_capacity(self.mesh.elements()));
+        let linearised = self.pass(x, targets, Pass::Condensed);
+        let rows = self.transfers.take()?;
+        // Singular at a bifurcation: the elements are known all the same.
+        if linearised.is_err() && rows.len() < self.mesh.elements() {
+            return None;
+        }
+        let place = |(i, at): (usize, &super::ends::At)| {
+            let jump = self.mesh.points[i].map_or(Vector::zeros(), |(force, _)| targets.load * force);
+            Place { position: at.position, force: [at.force + jump, at.force] }
+        };
+        let places: Vec<Place> = x.nodes.iter().enumerate().map(place).collect();
+        index(self.mesh.problem, &rows, &places, &self.units)
     }
 
     /// Condition number of what is left when all nodes but the last are eliminated.

@@ -232,6 +232,12 @@ impl BoundarySolution {
         self.solution.section_index
     }
 
+    /// The stability index under the end conditions; None where it cannot be told.
+    #[getter]
+    fn index(&self) -> Option<usize> {
+        self.solution.index
+    }
+
     /// Estimated error.
     #[getter]
     fn error(&self) -> f64 {

@@ -10,9 +10,9 @@ use super::iterate::Iterate;
 use super::mesh::Mesh;
 use super::path::Guess;
 use super::problem::Problem;
-use super::solve::{Report, Settings, solve};
+use super::solve::{Report, Settings, goal, solve};
 use super::step::{Stepper, pointwise};
-use super::system::{System, Targets};
+use super::system::System;
 use crate::InvalidInput;
 use crate::section::Strain;
 
@@ -162,9 +162,7 @@ impl Solution {
             }
         }
         let index = if section_index == 0 && report.fraction == 1.0 {
-            let goal = [0, 1].map(|i| problem.goal(&problem.ends[i]));
-            let targets = Targets { ends: goal, load: 1.0, offset: Vec::new() };
-            System::new(&mesh)?.index(&x, &targets)
+            System::new(&mesh)?.index(&x, &goal(&problem))
         } else {
             None
         };

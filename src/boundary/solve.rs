@@ -10,7 +10,7 @@ use super::mesh::Mesh;
 use super::newton::{Control, Failed, newton};
 use super::path::{Guess, Known, LARGEST_STEP_TURN, Path, Reached, Stop, Stride, largest_turn};
 use super::problem::Problem;
-use super::system::System;
+use super::system::{System, Targets};
 use crate::InvalidInput;
 
 /// What is asked of the solver.
@@ -171,8 +171,11 @@ const MOST_MESHES: usize = 25;
 /// Where a section is refused.
 pub fn solve(problem: &Problem, settings: &Settings, guess: Option<&Guess>) -> Result<Solved, InvalidInput> {
     let mut best: Option<Solved> = None;
+    let mut unstable: Option<Solved> = None;
     let mut spent = Spent::default();
     for attempt in ATTEMPTS {
+        // What is tried for a stable state, when there is one that is not, is to cost little.
+        spent.allowed = spent.work + if unstable.is_some() { LITTLE_WORK } else { MOST_WORK };
         let known = match (guess, problem.known(attempt.choice, attempt.imperfection)) {
             (Some(guess), _) if attempt.choice == 0 => Known::Given(guess),
             (None, Some(known)) => known,
@@ -200,14 +203,46 @@ pub fn solve(problem: &Problem, settings: &Settings, guess: Option<&Guess>) -> R
             unfinished(mesh, reached, &spent)
         };
         // A mesh that is given is not made finer.
-        if solved.report.status.is_solved() || !settings.adaptive {
+        if !settings.adaptive {
             return Ok(solved);
+        }
+        if solved.report.status.is_solved() {
+            // A guess is for the state near it, whatever that is.
+            if guess.is_some() || !is_unstable(problem, settings, &solved)? {
+                return Ok(solved);
+            }
+            unstable.get_or_insert(solved);
+            continue;
         }
         if best.as_ref().is_none_or(|b| solved.report.fraction > b.report.fraction) {
             best = Some(solved);
         }
     }
-    best.ok_or_else(|| InvalidInput::new("length", problem.length, "a ribbon that fewer elements resolve"))
+    unstable
+        .or(best)
+        .ok_or_else(|| InvalidInput::new("length", problem.length, "a ribbon that fewer elements resolve"))
+}
+
+/// Whether a solution is known to be unstable, by a section or under the end conditions.
+fn is_unstable(problem: &Problem, settings: &Settings, solved: &Solved) -> Result<bool, InvalidInput> {
+    let mesh = Mesh::new(problem, solved.nodes.clone(), settings.degree)?;
+    for i in 0..mesh.elements() {
+        let mut made = Vec::new();
+        let responses = mesh.responses(i, &mut made)?;
+        let strains = &solved.x.strains[i * settings.degree..(i + 1) * settings.degree];
+        // A uniform ribbon has one law for all stages.
+        if responses.iter().cycle().zip(strains).any(|(response, strain)| response.index(strain) > 0) {
+            return Ok(true);
+        }
+    }
+    let index = System::new(&mesh)?.index(&solved.x, &goal(problem));
+    Ok(index.is_some_and(|index| index > 0))
+}
+
+/// What is asked for in the end.
+#[must_use]
+pub fn goal(problem: &Problem) -> Targets {
+    Targets { ends: [0, 1].map(|i| problem.goal(&problem.ends[i])), load: 1.0, offset: Vec::new() }
 }
 
 /// The way from the known shape, on meshes that follow it if asked.
@@ -223,11 +258,11 @@ fn followed<'p>(
     loop {
         let mut system = new_system(&mesh, settings)?;
         let stop = path.follow(&mut system, &mut reached, &mut stride)?;
-        spent.factorisations += system.factorisations;
+        spent.factorised(&system);
         spent.meshes += 1;
         drop(system);
         match stop {
-            Stop::Coarse(estimate) if mesh.elements() < MOST_ON_THE_WAY => {
+            Stop::Coarse(estimate) if mesh.elements() < MOST_ON_THE_WAY && spent.work < spent.allowed => {
                 let finer =
                     Mesh::new(mesh.problem, refined(&mesh, &estimate, ERROR_ON_THE_WAY), settings.degree)?;
                 reached.x = transferred(&reached.x, &mesh, &finer)?;
@@ -243,6 +278,10 @@ fn followed<'p>(
     }
 }
 
+/// Factorised elements of an attempt that are too many: some ten seconds.
+const MOST_WORK: usize = 2_000_000;
+/// The same when there is a state already.
+const LITTLE_WORK: usize = 20_000;
 /// Error that a mesh on a careful way is made for.
 const ERROR_ON_THE_WAY: f64 = 1e-3;
 /// Elements of a mesh on the way that are no longer refined.
@@ -255,9 +294,17 @@ struct Spent {
     factorisations: usize,
     load_steps: usize,
     meshes: usize,
+    /// Factorised elements, and how many may be.
+    work: usize,
+    allowed: usize,
 }
 
 impl Spent {
+    fn factorised(&mut self, system: &System<'_, '_>) {
+        self.factorisations += system.factorisations;
+        self.work += system.factorisations * system.mesh.elements();
+    }
+
     fn report(&self, status: Status, reason: String, fraction: f64, norms: Vec<f64>) -> Report {
         Report {
             status,
@@ -313,16 +360,12 @@ fn adapted<'p>(
     let mut before: Option<(f64, usize)> = None;
     let control =
         Control { tolerance: (1e-2 * settings.tolerance).max(1e-15), iterations: 25, least_step: 1e-2 };
-    let goal = super::system::Targets {
-        ends: [0, 1].map(|i| problem.goal(&problem.ends[i])),
-        load: 1.0,
-        offset: Vec::new(),
-    };
+    let goal = goal(problem);
     loop {
         let mut system = new_system(&mesh, settings)?;
         let ended = newton(&mut system, x.clone(), &goal, &control);
         spent.iterations += ended.norms.len();
-        spent.factorisations += system.factorisations;
+        spent.factorised(&system);
         if let Some(failure) = ended.failure {
             drop(system);
             let reason = format!("on a mesh of {} elements {failure}", mesh.elements());
@@ -348,6 +391,7 @@ fn adapted<'p>(
         } else if !settings.adaptive
             || count >= settings.most_elements
             || spent.meshes >= meshes + MOST_MESHES
+            || spent.work >= spent.allowed
         {
             Some(Status::Unresolved)
         } else {

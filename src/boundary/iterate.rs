@@ -115,21 +115,54 @@ impl Iterate {
 }
 
 impl Correction {
+    /// The correction times a factor.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self {
+            nodes: self.nodes.iter().map(|change| change.map(|x| factor * x)).collect(),
+            strains: self.strains.iter().map(|e| factor * e).collect(),
+            slack: self.slack.map(|x| factor * x),
+        }
+    }
+
+    /// The sum with `factor` times another.
+    #[must_use]
+    pub fn plus(&self, factor: f64, other: &Self) -> Self {
+        let node = |(a, b): (&[f64; 12], &[f64; 12])| std::array::from_fn(|i| a[i] + factor * b[i]);
+        let strains = self.strains.iter().zip(&other.strains).map(|(a, b)| a + factor * b);
+        Self {
+            nodes: self.nodes.iter().zip(&other.nodes).map(node).collect(),
+            strains: strains.collect(),
+            slack: std::array::from_fn(|i| self.slack[i] + factor * other.slack[i]),
+        }
+    }
+
     /// Size: root mean square, over the length, of changes of position/L, angles, `eps` and `K L`.
     #[must_use]
     pub fn norm(&self, mesh: &Mesh<'_>) -> f64 {
+        self.dot(self, mesh).sqrt()
+    }
+
+    /// The scalar product that belongs to the norm.
+    #[must_use]
+    pub fn dot(&self, other: &Self, mesh: &Mesh<'_>) -> f64 {
         let length = mesh.problem.length;
         let s = mesh.gauss.degree;
         let mut sum = 0.0;
         for i in 0..mesh.elements() {
-            let pose = |change: &[f64; 12]| change[..6].iter().map(|x| x * x).sum::<f64>();
-            let mut local = 0.5 * (pose(&self.nodes[i]) + pose(&self.nodes[i + 1]));
-            for (e, weight) in self.strains[i * s..(i + 1) * s].iter().zip(&mesh.gauss.weights) {
-                local += weight * strain_size(e, length).powi(2);
+            let pose = |node: usize| {
+                let pairs = self.nodes[node][..6].iter().zip(&other.nodes[node]);
+                pairs.map(|(x, y)| x * y).sum::<f64>()
+            };
+            let mut local = 0.5 * (pose(i) + pose(i + 1));
+            let own = i * s..(i + 1) * s;
+            let pairs = self.strains[own.clone()].iter().zip(&other.strains[own]);
+            for ((a, b), weight) in pairs.zip(&mesh.gauss.weights) {
+                local += weight * (a[0] * b[0] + length * length * a.rows(1, 3).dot(&b.rows(1, 3)));
             }
             sum += local * mesh.length(i) / length;
         }
-        sum.sqrt()
+        sum
     }
 }
 

@@ -14,13 +14,14 @@
 //! | `transfer`, `chain`, `dense` | elimination of the nodes |
 //! | `sparse` | the same without elimination, by faer |
 //! | `mesh`, `iterate`, `system` | all elements: unknowns, residual, Jacobian |
-//! | `newton`, `path` | the nonlinear equations, from a known shape |
+//! | `newton`, `path`, `arclength` | the nonlinear equations, from a known shape |
 //! | `step`, `adapt` | dense output, errors and meshes |
 //! | `check` | an independent residual |
 //! | `stability` | the index under the end conditions |
 //! | `solve`, `solution` | the whole, and what it gives |
 
 mod adapt;
+mod arclength;
 mod chain;
 mod check;
 mod dense;

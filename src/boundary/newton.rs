@@ -132,8 +132,5 @@ pub fn newton(system: &mut System<'_, '_>, x: Iterate, targets: &Targets, contro
 
 /// Norm of `a - factor b`.
 fn distance(a: &Correction, factor: f64, b: &Correction, mesh: &Mesh<'_>) -> f64 {
-    let node = |(a, b): (&[f64; 12], &[f64; 12])| std::array::from_fn(|i| a[i] - factor * b[i]);
-    let nodes = a.nodes.iter().zip(&b.nodes).map(node).collect();
-    let strains = a.strains.iter().zip(&b.strains).map(|(a, b)| a - factor * b).collect();
-    Correction { nodes, strains, slack: Default::default() }.norm(mesh)
+    a.plus(-factor, b).norm(mesh)
 }

@@ -9,6 +9,7 @@ use std::f64::consts::PI;
 use nalgebra::{DMatrix, DVector, Quaternion, Vector3};
 
 use super::adapt::{Estimate, estimate, transferred_strains};
+use super::arclength::Point;
 use super::ends::{At, End, Hold};
 use super::iterate::{Iterate, Layout, at_rest, settle};
 use super::law::Law;
@@ -127,6 +128,10 @@ impl Problem {
 const LARGEST_TURN: f64 = 1.5;
 /// Rotation over the whole ribbon that an imperfection of size 1 is of.
 const IMPERFECTION: f64 = 0.2;
+/// A step of `t` below which a fold is supposed.
+const FOLD_STEP: f64 = 1e-3;
+/// The longest step along the way, in the norm of the unknowns.
+const LONGEST_STEP: f64 = 2.0;
 /// Error of the mesh that is too large on a careful way.
 const LARGEST_ERROR: f64 = 1e-2;
 /// Radians that a section turns at most in one step: more may be another solution.
@@ -394,6 +399,9 @@ impl Path {
                 continue;
             };
             stride.step = 0.25 * (t - reached.fraction);
+            if stride.step < FOLD_STEP && stride.careful && reached.fraction > 0.0 {
+                return Ok(self.past_folds(system, reached, failure));
+            }
             if stride.step < LEAST_STEP || reached.steps >= MOST_STEPS {
                 reached.norms = ended.norms;
                 reached.failure = Some(failure);
@@ -401,6 +409,49 @@ impl Path {
             }
         }
         Ok(Stop::There)
+    }
+
+    /// Goes on along the arclength of the way, forth and back in `t`, until `t` is 1.
+    fn past_folds(&self, system: &mut System<'_, '_>, reached: &mut Reached, failure: Failed) -> Stop {
+        let control = Control { tolerance: 1e-6, iterations: 12, least_step: 1e-1 };
+        let goal = self.targets(system.mesh.problem, 1.0);
+        reached.failure = Some(failure);
+        let (x, t) = (reached.x.clone(), reached.fraction);
+        let Ok(mut point) = Point::new(self, system, x, t, None) else { return Stop::Failed };
+        let mut length = 0.05;
+        for _ in 0..MOST_STEPS {
+            // What is ahead within a step may be reached at once.
+            if point.ahead() > 0.0 && point.t + length * point.ahead() >= 1.0 {
+                let start = point.extrapolated(1.0, system);
+                let ended = newton(system, start, &goal, &control);
+                reached.iterations += ended.norms.len();
+                if ended.failure.is_none() && largest_turn(&point.x, &ended.x) < LARGEST_STEP_TURN {
+                    let last = std::mem::replace(&mut reached.x, ended.x);
+                    reached.before = Some((reached.fraction, system.mesh.nodes.clone(), last));
+                    (reached.fraction, reached.norms, reached.failure) = (1.0, ended.norms, None);
+                    return Stop::There;
+                }
+                length *= 0.5;
+            }
+            reached.steps += 1;
+            match point.next(self, system, length) {
+                Some((next, iterations)) => {
+                    reached.iterations += iterations;
+                    if iterations <= 4 {
+                        length = (1.5 * length).min(LONGEST_STEP);
+                    }
+                    point = next;
+                    if point.t > reached.fraction {
+                        (reached.x, reached.fraction) = (point.x.clone(), point.t.min(1.0));
+                    }
+                }
+                None => length *= 0.25,
+            }
+            if length < LEAST_STEP || !(-1.0..=2.0).contains(&point.t) {
+                break;
+            }
+        }
+        Stop::Failed
     }
 
     /// The way on another mesh.

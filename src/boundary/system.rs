@@ -130,6 +130,26 @@ impl<'m, 'p> System<'m, 'p> {
         self.pass(x, targets, Pass::Residual)
     }
 
+    /// Sets the residual to the difference of those for two targets, over `step`: what a parameter does to it.
+    ///
+    /// # Errors
+    /// As [`System::evaluate`].
+    pub fn difference(&mut self, x: &Iterate, targets: &[Targets; 2], step: f64) -> Result<(), Failure> {
+        let mut settled = x.clone();
+        self.settle(&mut settled, targets[0].load);
+        self.evaluate(&settled, &targets[0])?;
+        let before = std::mem::take(&mut self.residual);
+        self.settle(&mut settled, targets[1].load);
+        self.evaluate(&settled, &targets[1])?;
+        let less = |after: &mut f64, before: f64| *after = (*after - before) / step;
+        let r = &mut self.residual;
+        r.strains.iter_mut().zip(&before.strains).for_each(|(a, b)| *a = (*a - b) / step);
+        let gaps = r.gaps.iter_mut().flatten().zip(before.gaps.iter().flatten());
+        let ends = r.start.iter_mut().zip(&before.start).chain(r.end.iter_mut().zip(&before.end));
+        gaps.chain(ends).for_each(|(a, b)| less(a, *b));
+        Ok(())
+    }
+
     /// Evaluates the residual and factorises the Jacobian at `x`.
     ///
     /// # Errors

@@ -62,8 +62,7 @@ fn row(scene: &str, degree: usize, elements: usize, solution: &Solution) -> Stri
     let length = solution.problem().length;
     let here = solution.at(PLACE * length).unwrap();
     let (r, q, e) = (here.at.position / length, here.at.rotation, here.strain);
-    let values =
-        [r.x, r.y, r.z, q.w, q.i, q.j, q.k, e[0], e[1] * length, e[2] * length, e[3] * length];
+    let values = [r.x, r.y, r.z, q.w, q.i, q.j, q.k, e[0], e[1] * length, e[2] * length, e[3] * length];
     let values: Vec<String> = values.iter().map(|x| format!("{x:.16e}")).collect();
     format!("{scene},{degree},{elements},{:.2e},{}", solution.report.error, values.join(","))
 }
@@ -79,8 +78,8 @@ fn guess(solution: &Solution) -> Guess {
 fn main() {
     println!("scene,degree,elements,estimate,x,y,z,q0,q1,q2,q3,eps,K1,K2,K3");
     let meshes: [(&str, Problem, Vec<usize>); 2] = [
-        ("elastica", elastica(), (1..=9).map(|k| 1 << k).collect()),
-        ("ribbon", ribbon(), (0..=7).map(|k| 5 << k).collect()),
+        ("elastica", elastica(), (1..=8).map(|k| 1 << k).collect()),
+        ("ribbon", ribbon(), vec![5, 10, 15, 20, 30, 40, 60, 80, 120, 160, 240, 320]),
     ];
     for (name, problem, counts) in meshes {
         let problem = Arc::new(problem);

@@ -2,6 +2,8 @@
 
 #![expect(clippy::neg_cmp_op_on_partial_ord, reason = "what is not a number fails every test")]
 
+use std::f64::consts::PI;
+
 use super::adapt::{estimate, refined, transferred};
 use super::check;
 use super::ends::Hold;
@@ -10,8 +12,10 @@ use super::mesh::Mesh;
 use super::newton::{Control, Failed, newton};
 use super::path::{Guess, Known, LARGEST_STEP_TURN, Path, Reached, Stop, Stride, largest_turn};
 use super::problem::Problem;
+use super::step::Stepper;
 use super::system::{System, Targets};
 use crate::InvalidInput;
+use crate::section::Strain;
 
 /// What is asked of the solver.
 #[derive(Clone, Copy, Debug)]
@@ -171,11 +175,9 @@ const MOST_MESHES: usize = 25;
 /// Where a section is refused.
 pub fn solve(problem: &Problem, settings: &Settings, guess: Option<&Guess>) -> Result<Solved, InvalidInput> {
     let mut best: Option<Solved> = None;
-    let mut unstable: Option<Solved> = None;
     let mut spent = Spent::default();
     for attempt in ATTEMPTS {
-        // What is tried for a stable state, when there is one that is not, is to cost little.
-        spent.allowed = spent.work + if unstable.is_some() { LITTLE_WORK } else { MOST_WORK };
+        spent.allowed = spent.work + MOST_WORK;
         let known = match (guess, problem.known(attempt.choice, attempt.imperfection)) {
             (Some(guess), _) if attempt.choice == 0 => Known::Given(guess),
             (None, Some(known)) => known,
@@ -211,17 +213,94 @@ pub fn solve(problem: &Problem, settings: &Settings, guess: Option<&Guess>) -> R
             if guess.is_some() || !is_unstable(problem, settings, &solved)? {
                 return Ok(solved);
             }
-            unstable.get_or_insert(solved);
-            continue;
+            return fallen(problem, settings, solved, &mut spent);
         }
         if best.as_ref().is_none_or(|b| solved.report.fraction > b.report.fraction) {
             best = Some(solved);
         }
     }
-    unstable
-        .or(best)
-        .ok_or_else(|| InvalidInput::new("length", problem.length, "a ribbon that fewer elements resolve"))
+    best.ok_or_else(|| InvalidInput::new("length", problem.length, "a ribbon that fewer elements resolve"))
 }
+
+/// The stable state that an unstable one falls into when it is disturbed, if one of some disturbances leads to one;
+/// else the unstable one. All is to cost little.
+fn fallen(
+    problem: &Problem,
+    settings: &Settings,
+    unstable: Solved,
+    spent: &mut Spent,
+) -> Result<Solved, InvalidInput> {
+    let bow = problem.twist().map(|_| Disturbance { of_straight: true, bend: 2.0, twist: 0.0, size: 6.0 });
+    for disturbance in bow.into_iter().chain(DISTURBANCES) {
+        spent.allowed = spent.work + LITTLE_WORK;
+        let mesh = Mesh::new(problem, unstable.nodes.clone(), settings.degree)?;
+        let guess = disturbed(&mesh, &unstable.x, &disturbance)?;
+        // As from any guess: on a coarse mesh first, which is quick and takes large steps.
+        let known = Known::Given(&guess);
+        let nodes = problem.first_nodes(settings.first_elements as f64, first_turn(problem, &known)?);
+        let mesh = Mesh::new(problem, nodes, settings.degree)?;
+        let stride = Stride { step: 1.0, most: 1.0, careful: false, again: false };
+        let (mesh, reached) = followed(settings, mesh, &known, stride, spent)?;
+        if reached.failure.is_none() {
+            let solved = adapted(settings, mesh, reached.x, spent)?;
+            if solved.report.status.is_solved() && !is_unstable(problem, settings, &solved)? {
+                return Ok(solved);
+            }
+        }
+    }
+    Ok(unstable)
+}
+
+/// A disturbance: half waves, and signs, in bending and in twist, and its size in radians over the ribbon.
+#[derive(Clone, Copy)]
+struct Disturbance {
+    /// Whether it is one of the straight, twisted ribbon, in place of the state.
+    of_straight: bool,
+    bend: f64,
+    twist: f64,
+    size: f64,
+}
+
+const fn wave(bend: f64, twist: f64) -> Disturbance {
+    Disturbance { of_straight: false, bend, twist, size: 2.0 }
+}
+
+const DISTURBANCES: [Disturbance; 6] =
+    [wave(1.0, 1.0), wave(1.0, -2.0), wave(2.0, 1.0), wave(-1.0, 2.0), wave(3.0, -1.0), wave(2.0, 3.0)];
+
+/// The shape of the disturbed strains, from the start.
+fn disturbed(mesh: &Mesh<'_>, x: &Iterate, disturbance: &Disturbance) -> Result<Guess, InvalidInput> {
+    let length = mesh.problem.length;
+    let size = |waves: f64| waves.signum() * disturbance.size / length * f64::from(u8::from(waves != 0.0));
+    let wave = |s: f64, waves: f64| size(waves) * (waves * PI * s / length).cos();
+    let twisted = Known::Twisted(0.0);
+    let straight = twisted.strains(mesh.problem)?;
+    let strain = |i: usize, y: f64| {
+        let s = mesh.nodes[i] + y * mesh.length(i);
+        let base = if disturbance.of_straight { straight(s) } else { x.strain(mesh, i, y) };
+        base + Strain::new(0.0, 0.0, wave(s, disturbance.bend), wave(s, disturbance.twist))
+    };
+    let mut stepper = Stepper::new(mesh.problem, mesh.gauss)?;
+    let (mut s, mut strains, mut states) = (vec![0.0], vec![strain(0, 0.0)], vec![x.nodes[0]]);
+    for i in 0..mesh.elements() {
+        // Between the nodes, too, for the strains of a guess are joined by lines.
+        for part in 0..PARTS {
+            let [from, to] = [part, part + 1].map(|k| k as f64 / PARTS as f64);
+            let between = |c: f64| strain(i, from + c * (to - from));
+            let step = (to - from) * mesh.length(i);
+            let (mut at, _) =
+                stepper.step(&states[states.len() - 1], s[s.len() - 1], step, between, false)?;
+            at.rotation *= 1.0 / at.rotation.norm();
+            s.push(mesh.nodes[i] + to * mesh.length(i));
+            strains.push(strain(i, to));
+            states.push(at);
+        }
+    }
+    Ok(Guess { s, strains, states, has_wrench: false })
+}
+
+/// Parts of an element at which a guess is given.
+const PARTS: usize = 4;
 
 /// Whether a solution is known to be unstable, by a section or under the end conditions.
 fn is_unstable(problem: &Problem, settings: &Settings, solved: &Solved) -> Result<bool, InvalidInput> {
@@ -281,7 +360,7 @@ fn followed<'p>(
 /// Factorised elements of an attempt that are too many: some ten seconds.
 const MOST_WORK: usize = 2_000_000;
 /// The same when there is a state already.
-const LITTLE_WORK: usize = 20_000;
+const LITTLE_WORK: usize = 4_000;
 /// Error that a mesh on a careful way is made for.
 const ERROR_ON_THE_WAY: f64 = 1e-3;
 /// Elements of a mesh on the way that are no longer refined.

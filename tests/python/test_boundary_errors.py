@@ -1,6 +1,7 @@
 """Tolerances, error estimates, degrees of the method, and how it fails."""
 
 import math
+import warnings
 from functools import cache
 
 import numpy as np
@@ -124,9 +125,13 @@ def test_degrees_out_of_range_are_refused(degree):
 
 
 def test_the_least_tolerance_is_met_or_said_not_to_be():
-    with pytest.warns(rb.RibbonWarning, match="below rounding"):
+    # at the least tolerance it is rounding that decides whether the estimate is below it
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
         state = rb.solve(SCENES["spatial rod"], tol=1e-14)
-    assert state.report.status == "rounding_limited"
+    limited = state.report.status == "rounding_limited"
+    assert ["below rounding" in str(warning.message) for warning in caught] == [True] * limited
+    assert limited == (state.report.error > 1e-14)
     assert error(state, reference("spatial rod"), state.S) < 1e-11
 
 

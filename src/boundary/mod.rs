@@ -14,11 +14,11 @@
 //! | `transfer`, `chain`, `dense` | elimination of the nodes |
 //! | `sparse` | the same without elimination, by faer |
 //! | `mesh`, `iterate`, `system` | all elements: unknowns, residual, Jacobian |
-//! | `newton`, `path`, `arclength` | the nonlinear equations, from a known shape |
+//! | `newton`, `known`, `path`, `arclength` | the nonlinear equations, from a known shape |
 //! | `step`, `adapt` | dense output, errors and meshes |
 //! | `check` | an independent residual |
-//! | `stability` | the index under the end conditions |
-//! | `solve`, `solution` | the whole, and what it gives |
+//! | `stability`, `fallen` | the index under the end conditions, and what unstable states fall into |
+//! | `solve`, `report`, `solution` | the whole, and what it gives |
 
 mod adapt;
 mod arclength;
@@ -27,13 +27,16 @@ mod check;
 mod dense;
 mod element;
 mod ends;
+mod fallen;
 mod gauss;
 mod iterate;
+mod known;
 mod law;
 mod mesh;
 mod newton;
 mod path;
 mod problem;
+mod report;
 mod solution;
 mod solve;
 mod sparse;
@@ -45,10 +48,12 @@ mod transfer;
 pub use ends::{At, End, Hold};
 pub use gauss::MAX_DEGREE;
 pub use iterate::{Correction, Iterate, Layout};
+pub use known::{Guess, Known};
 pub use law::{Law, Rod};
 pub use mesh::Mesh;
-pub use path::{Guess, Known, Path};
+pub use path::Path;
 pub use problem::{LineLoad, PointLoad, Problem};
+pub use report::{Report, Status};
 pub use solution::{SectionState, Solution, Wrench};
-pub use solve::{DEGREE, Report, Settings, Status};
+pub use solve::{DEGREE, Settings};
 pub use system::{Failure, System, Targets};

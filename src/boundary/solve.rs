@@ -2,20 +2,19 @@
 
 #![expect(clippy::neg_cmp_op_on_partial_ord, reason = "what is not a number fails every test")]
 
-use std::f64::consts::PI;
-
 use super::adapt::{estimate, refined, transferred};
 use super::check;
 use super::ends::Hold;
+use super::fallen::{fallen, is_unstable};
 use super::iterate::{Iterate, Layout};
+use super::known::{Guess, Known};
 use super::mesh::Mesh;
 use super::newton::{Control, Failed, newton};
-use super::path::{Guess, Known, LARGEST_STEP_TURN, Path, Reached, Stop, Stride, largest_turn};
+use super::path::{LARGEST_STEP_TURN, Path, Reached, Stop, Stride, largest_turn};
 use super::problem::Problem;
-use super::step::Stepper;
+use super::report::{Report, Status};
 use super::system::{System, Targets};
 use crate::InvalidInput;
-use crate::section::Strain;
 
 /// What is asked of the solver.
 #[derive(Clone, Copy, Debug)]
@@ -49,72 +48,6 @@ impl Default for Settings {
 
 /// The degree of the least time to an error of 1e-10; see `benches/boundary.rs`.
 pub const DEGREE: usize = 5;
-
-/// How a solve ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Status {
-    /// The error is below the tolerance.
-    Converged,
-    /// Rounding keeps the error above the tolerance; it is what it can be.
-    RoundingLimited,
-    /// The equations are singular on the way.
-    Singular,
-    /// Newton's method fails on the way, at the least step, or the independent check does not confirm.
-    Diverged,
-    /// The elements allowed do not suffice.
-    Unresolved,
-}
-
-impl Status {
-    /// All of them.
-    pub const ALL: [Self; 5] =
-        [Self::Converged, Self::RoundingLimited, Self::Singular, Self::Diverged, Self::Unresolved];
-
-    /// The name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Converged => "converged",
-            Self::RoundingLimited => "rounding_limited",
-            Self::Singular => "singular",
-            Self::Diverged => "diverged",
-            Self::Unresolved => "unresolved",
-        }
-    }
-
-    /// Whether there is a solution.
-    #[must_use]
-    pub fn is_solved(self) -> bool {
-        matches!(self, Self::Converged | Self::RoundingLimited)
-    }
-}
-
-/// How the solve went.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Report {
-    /// How it ended.
-    pub status: Status,
-    /// Why not at a solution.
-    pub reason: String,
-    /// How much of loads and displacements was reached.
-    pub fraction: f64,
-    /// Estimate of the largest error of position/L, of angles, and of strains (`eps`, `K L`).
-    pub error: f64,
-    /// The largest residual of the independent check.
-    pub residual: f64,
-    /// Condition number of the conditions at the ends.
-    pub condition: f64,
-    /// Newton iterations.
-    pub iterations: usize,
-    /// Factorisations.
-    pub factorisations: usize,
-    /// Meshes.
-    pub meshes: usize,
-    /// Solves on the way to the loads.
-    pub load_steps: usize,
-    /// Norms of the corrections of the last solve.
-    pub norms: Vec<f64>,
-}
 
 /// A discrete solution.
 pub struct Solved {
@@ -222,102 +155,6 @@ pub fn solve(problem: &Problem, settings: &Settings, guess: Option<&Guess>) -> R
     best.ok_or_else(|| InvalidInput::new("length", problem.length, "a ribbon that fewer elements resolve"))
 }
 
-/// The stable state that an unstable one falls into when it is disturbed, if one of some disturbances leads to one;
-/// else the unstable one. All is to cost little.
-fn fallen(
-    problem: &Problem,
-    settings: &Settings,
-    unstable: Solved,
-    spent: &mut Spent,
-) -> Result<Solved, InvalidInput> {
-    let bow = problem.twist().map(|_| Disturbance { of_straight: true, bend: 2.0, twist: 0.0, size: 6.0 });
-    for disturbance in bow.into_iter().chain(DISTURBANCES) {
-        spent.allowed = spent.work + LITTLE_WORK;
-        let mesh = Mesh::new(problem, unstable.nodes.clone(), settings.degree)?;
-        let guess = disturbed(&mesh, &unstable.x, &disturbance)?;
-        // As from any guess: on a coarse mesh first, which is quick and takes large steps.
-        let known = Known::Given(&guess);
-        let nodes = problem.first_nodes(settings.first_elements as f64, first_turn(problem, &known)?);
-        let mesh = Mesh::new(problem, nodes, settings.degree)?;
-        let stride = Stride { step: 1.0, most: 1.0, careful: false, again: false };
-        let (mesh, reached) = followed(settings, mesh, &known, stride, spent)?;
-        if reached.failure.is_none() {
-            let solved = adapted(settings, mesh, reached.x, spent)?;
-            if solved.report.status.is_solved() && !is_unstable(problem, settings, &solved)? {
-                return Ok(solved);
-            }
-        }
-    }
-    Ok(unstable)
-}
-
-/// A disturbance: half waves, and signs, in bending and in twist, and its size in radians over the ribbon.
-#[derive(Clone, Copy)]
-struct Disturbance {
-    /// Whether it is one of the straight, twisted ribbon, in place of the state.
-    of_straight: bool,
-    bend: f64,
-    twist: f64,
-    size: f64,
-}
-
-const fn wave(bend: f64, twist: f64) -> Disturbance {
-    Disturbance { of_straight: false, bend, twist, size: 2.0 }
-}
-
-const DISTURBANCES: [Disturbance; 6] =
-    [wave(1.0, 1.0), wave(1.0, -2.0), wave(2.0, 1.0), wave(-1.0, 2.0), wave(3.0, -1.0), wave(2.0, 3.0)];
-
-/// The shape of the disturbed strains, from the start.
-fn disturbed(mesh: &Mesh<'_>, x: &Iterate, disturbance: &Disturbance) -> Result<Guess, InvalidInput> {
-    let length = mesh.problem.length;
-    let size = |waves: f64| waves.signum() * disturbance.size / length * f64::from(u8::from(waves != 0.0));
-    let wave = |s: f64, waves: f64| size(waves) * (waves * PI * s / length).cos();
-    let twisted = Known::Twisted(0.0);
-    let straight = twisted.strains(mesh.problem)?;
-    let strain = |i: usize, y: f64| {
-        let s = mesh.nodes[i] + y * mesh.length(i);
-        let base = if disturbance.of_straight { straight(s) } else { x.strain(mesh, i, y) };
-        base + Strain::new(0.0, 0.0, wave(s, disturbance.bend), wave(s, disturbance.twist))
-    };
-    let mut stepper = Stepper::new(mesh.problem, mesh.gauss)?;
-    let (mut s, mut strains, mut states) = (vec![0.0], vec![strain(0, 0.0)], vec![x.nodes[0]]);
-    for i in 0..mesh.elements() {
-        // Between the nodes, too, for the strains of a guess are joined by lines.
-        for part in 0..PARTS {
-            let [from, to] = [part, part + 1].map(|k| k as f64 / PARTS as f64);
-            let between = |c: f64| strain(i, from + c * (to - from));
-            let step = (to - from) * mesh.length(i);
-            let (mut at, _) =
-                stepper.step(&states[states.len() - 1], s[s.len() - 1], step, between, false)?;
-            at.rotation *= 1.0 / at.rotation.norm();
-            s.push(mesh.nodes[i] + to * mesh.length(i));
-            strains.push(strain(i, to));
-            states.push(at);
-        }
-    }
-    Ok(Guess { s, strains, states, has_wrench: false })
-}
-
-/// Parts of an element at which a guess is given.
-const PARTS: usize = 4;
-
-/// Whether a solution is known to be unstable, by a section or under the end conditions.
-fn is_unstable(problem: &Problem, settings: &Settings, solved: &Solved) -> Result<bool, InvalidInput> {
-    let mesh = Mesh::new(problem, solved.nodes.clone(), settings.degree)?;
-    for i in 0..mesh.elements() {
-        let mut made = Vec::new();
-        let responses = mesh.responses(i, &mut made)?;
-        let strains = &solved.x.strains[i * settings.degree..(i + 1) * settings.degree];
-        // A uniform ribbon has one law for all stages.
-        if responses.iter().cycle().zip(strains).any(|(response, strain)| response.index(strain) > 0) {
-            return Ok(true);
-        }
-    }
-    let index = System::new(&mesh)?.index(&solved.x, &goal(problem));
-    Ok(index.is_some_and(|index| index > 0))
-}
-
 /// What is asked for in the end.
 #[must_use]
 pub fn goal(problem: &Problem) -> Targets {
@@ -325,7 +162,7 @@ pub fn goal(problem: &Problem) -> Targets {
 }
 
 /// The way from the known shape, on meshes that follow it if asked.
-fn followed<'p>(
+pub fn followed<'p>(
     settings: &Settings,
     mut mesh: Mesh<'p>,
     known: &Known<'_>,
@@ -359,8 +196,6 @@ fn followed<'p>(
 
 /// Factorised elements of an attempt that are too many: some ten seconds.
 const MOST_WORK: usize = 2_000_000;
-/// The same when there is a state already.
-const LITTLE_WORK: usize = 4_000;
 /// Error that a mesh on a careful way is made for.
 const ERROR_ON_THE_WAY: f64 = 1e-3;
 /// Elements of a mesh on the way that are no longer refined.
@@ -368,14 +203,15 @@ const MOST_ON_THE_WAY: usize = 1000;
 
 /// Work done so far.
 #[derive(Clone, Copy, Debug, Default)]
-struct Spent {
+pub struct Spent {
     iterations: usize,
     factorisations: usize,
     load_steps: usize,
     meshes: usize,
-    /// Factorised elements, and how many may be.
-    work: usize,
-    allowed: usize,
+    /// Factorised elements.
+    pub work: usize,
+    /// How many may be.
+    pub allowed: usize,
 }
 
 impl Spent {
@@ -409,7 +245,7 @@ fn new_system<'m, 'p>(mesh: &'m Mesh<'p>, settings: &Settings) -> Result<System<
 }
 
 /// How far the known shape turns.
-fn first_turn(problem: &Problem, known: &Known<'_>) -> Result<f64, InvalidInput> {
+pub fn first_turn(problem: &Problem, known: &Known<'_>) -> Result<f64, InvalidInput> {
     let strain = known.strains(problem)?;
     let rate = |i: i32| strain(problem.length * f64::from(i) / 16.0).rows(1, 3).norm();
     Ok((0..=16).map(rate).fold(0.0, f64::max) * problem.length)
@@ -428,7 +264,7 @@ fn unfinished(mesh: Mesh<'_>, reached: Reached, spent: &Spent) -> Solved {
 }
 
 /// Meshes until the estimated error is below the tolerance.
-fn adapted<'p>(
+pub fn adapted<'p>(
     settings: &Settings,
     mut mesh: Mesh<'p>,
     mut x: Iterate,

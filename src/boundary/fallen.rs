@@ -30,7 +30,8 @@ pub fn fallen(
         let known = Known::Given(&guess);
         let nodes = problem.first_nodes(settings.first_elements as f64, first_turn(problem, &known)?);
         let mesh = Mesh::new(problem, nodes, settings.degree)?;
-        let stride = Stride { step: 1.0, most: 1.0, careful: false, again: false };
+        let stride =
+            Stride { step: 1.0, most: 1.0, careful: false, again: false, interrupted: settings.interrupted };
         let (mesh, reached) = followed(settings, mesh, &known, stride, spent)?;
         if reached.failure.is_none() {
             let solved = adapted(settings, mesh, reached.x, spent)?;

@@ -43,6 +43,9 @@ pub enum Failed {
     /// It converged to a shape that is not near the last.
     #[error("the shape jumps")]
     Jumped,
+    /// Asked to stop.
+    #[error("interrupted")]
+    Interrupted,
     /// Too many.
     #[error("Newton's method is too slow: the last correction is {0:.1e}")]
     Slow(f64),

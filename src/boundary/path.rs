@@ -194,6 +194,10 @@ impl Path {
         }
         let control = Control { tolerance: 1e-6, iterations: 25, least_step: 1e-2 };
         while reached.fraction < 1.0 || stride.again {
+            if stride.interrupted.is_some_and(|asks| asks()) {
+                reached.failure = Some(Failed::Interrupted);
+                return Ok(Stop::Failed);
+            }
             let ahead = if stride.again { 0.0 } else { stride.step };
             let t = if reached.fraction + 1.001 * ahead >= 1.0 { 1.0 } else { reached.fraction + ahead };
             let targets = self.targets(problem, t);
@@ -296,6 +300,8 @@ pub struct Stride {
     pub careful: bool,
     /// Whether the place that was reached is solved for once more, on a new mesh.
     pub again: bool,
+    /// Asked before each step whether to stop.
+    pub interrupted: Option<fn() -> bool>,
 }
 
 /// Why the way is not gone on.

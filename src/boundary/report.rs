@@ -13,12 +13,20 @@ pub enum Status {
     Diverged,
     /// The elements allowed do not suffice.
     Unresolved,
+    /// It was asked to stop.
+    Interrupted,
 }
 
 impl Status {
     /// All of them.
-    pub const ALL: [Self; 5] =
-        [Self::Converged, Self::RoundingLimited, Self::Singular, Self::Diverged, Self::Unresolved];
+    pub const ALL: [Self; 6] = [
+        Self::Converged,
+        Self::RoundingLimited,
+        Self::Singular,
+        Self::Diverged,
+        Self::Unresolved,
+        Self::Interrupted,
+    ];
 
     /// The name.
     #[must_use]
@@ -29,6 +37,7 @@ impl Status {
             Self::Singular => "singular",
             Self::Diverged => "diverged",
             Self::Unresolved => "unresolved",
+            Self::Interrupted => "interrupted",
         }
     }
 

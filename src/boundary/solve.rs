@@ -31,6 +31,8 @@ pub struct Settings {
     pub layout: Option<Layout>,
     /// Whether the mesh adapts to the tolerance, or the first is the last.
     pub adaptive: bool,
+    /// Asked now and then whether to stop.
+    pub interrupted: Option<fn() -> bool>,
 }
 
 impl Default for Settings {
@@ -42,6 +44,7 @@ impl Default for Settings {
             most_elements: 200_000,
             layout: None,
             adaptive: true,
+            interrupted: None,
         }
     }
 }
@@ -124,7 +127,13 @@ pub fn solve(problem: &Problem, settings: &Settings, guess: Option<&Guess>) -> R
         let mesh = Mesh::new(problem, nodes, settings.degree)?;
         let step = if guess.is_some() { 1.0 } else { 0.5 };
         let most = problem.largest_step(&known);
-        let stride = Stride { step: most.min(step), most, careful: attempt.careful, again: false };
+        let stride = Stride {
+            step: most.min(step),
+            most,
+            careful: attempt.careful,
+            again: false,
+            interrupted: settings.interrupted,
+        };
         let (mesh, reached) = followed(settings, mesh, &known, stride, &mut spent)?;
         let solved = if reached.failure.is_none() {
             let before = reached.before;
@@ -138,7 +147,7 @@ pub fn solve(problem: &Problem, settings: &Settings, guess: Option<&Guess>) -> R
             unfinished(mesh, reached, &spent)
         };
         // A mesh that is given is not made finer.
-        if !settings.adaptive {
+        if !settings.adaptive || solved.report.status == Status::Interrupted {
             return Ok(solved);
         }
         if solved.report.status.is_solved() {
@@ -256,6 +265,7 @@ fn unfinished(mesh: Mesh<'_>, reached: Reached, spent: &Spent) -> Solved {
     let failure = reached.failure.as_ref();
     let status = match failure {
         Some(Failed::Equations(Failure::Singular(_))) => Status::Singular,
+        Some(Failed::Interrupted) => Status::Interrupted,
         _ => Status::Diverged,
     };
     let reason = failure.map_or_else(String::new, ToString::to_string);
@@ -277,6 +287,10 @@ pub fn adapted<'p>(
         Control { tolerance: (1e-2 * settings.tolerance).max(1e-15), iterations: 25, least_step: 1e-2 };
     let goal = goal(problem);
     loop {
+        if settings.interrupted.is_some_and(|asks| asks()) {
+            let report = spent.report(Status::Interrupted, "interrupted".to_owned(), 1.0, Vec::new());
+            return Ok(Solved { nodes: mesh.nodes, x, report });
+        }
         let mut system = new_system(&mesh, settings)?;
         let ended = newton(&mut system, x.clone(), &goal, &control);
         spent.iterations += ended.norms.len();

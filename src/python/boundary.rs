@@ -128,7 +128,10 @@ impl BoundaryProblem {
             return Err(InvalidInput::new("degree", degree, &expected).into());
         }
         let guess = guess.map(|arrays| guess_from(&arrays)).transpose()?;
-        let settings = Settings { tolerance: tol, degree, ..Settings::default() };
+        // A signal that Python's handler answers with an exception ends the solve; the exception is raised anew.
+        let interrupted = || Python::attach(|py| py.check_signals().is_err());
+        let settings =
+            Settings { tolerance: tol, degree, interrupted: Some(interrupted), ..Settings::default() };
         let problem = Arc::clone(&self.problem);
         let solution = py.detach(|| Solution::of(problem, &settings, guess.as_ref()))?;
         Ok(BoundarySolution { solution })

@@ -3,8 +3,13 @@
 //! That both give the same is tested in tests/pays.rs; the table is in docs/performance.md.
 
 use std::hint::black_box;
+use std::sync::Arc;
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use nalgebra::{Quaternion, Vector3};
+use ribbonrs::boundary::{
+    End, Hold, Known, Law, Layout, LineLoad, Mesh, Path, Problem, Settings, Solution, System,
+};
 use ribbonrs::equilibrium::{natural_branches, natural_shapes};
 use ribbonrs::frame::{Pose, helix};
 use ribbonrs::growth::Growth;
@@ -29,13 +34,17 @@ fn steps() -> Growth {
     Growth { gamma33: steps.into(), ..Growth::default() }
 }
 
-fn ribbon(amplitude: &[f64], growth: Growth) -> RibbonLaw {
-    let amplitude = Piecewise::from_legendre(vec![0.0, LENGTH], vec![amplitude.to_vec()]).expect("a line");
+fn along(coefficients: &[f64]) -> Amplitude {
+    let line = Piecewise::from_legendre(vec![0.0, LENGTH], vec![coefficients.to_vec()]);
+    Amplitude::Along(line.expect("a line"))
+}
+
+fn ribbon(amplitude: Amplitude, growth: Growth) -> RibbonLaw {
     let spec = RibbonSpec {
         eta: ETA,
         stiffness: PlaneStress::incompressible(),
         form: Form::Auto,
-        growth: vec![(Amplitude::Along(amplitude), growth)],
+        growth: vec![(amplitude, growth)],
         width: Amplitude::Constant(1.0),
         thickness: Amplitude::Constant(1.0),
     };
@@ -96,14 +105,14 @@ fn ribbons(c: &mut Criterion) {
         });
     });
     group.bench_function("the same growth, followed along the ribbon", |b| {
-        let law = ribbon(&[1.0], growth.clone());
+        let law = ribbon(along(&[1.0]), growth.clone());
         b.iter(|| natural_branches(black_box(&law), LENGTH).map(|branches| branches[0].poses(&s, &start)));
     });
     let stations: Vec<f64> = (0..100).map(|i| LENGTH * (f64::from(i) + 0.5) / 100.0).collect();
     let strain = Strain::new(0.01, 0.0, 2.4 * ETA, 0.8 * ETA);
     group.bench_function("100 sections with jumps that share their modes", |b| {
         b.iter(|| {
-            let law = ribbon(&[0.5, 0.5], black_box(steps()));
+            let law = ribbon(along(&[0.5, 0.5]), black_box(steps()));
             stations.iter().map(|&s| law.station(s).map_or(0.0, |here| here.energy(&strain))).sum::<f64>()
         });
     });
@@ -120,5 +129,69 @@ fn ribbons(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, sections, ribbons);
+/// A ribbon without loads, clamped at its start, and free or clamped after some turns at its end.
+fn problem(law: RibbonLaw, hold: Hold, z: f64, turns: f64) -> Arc<Problem> {
+    let end = |hold, z, turns| End {
+        hold,
+        position: Vector3::new(0.0, 0.0, z),
+        rotation: Quaternion::new(1.0, 0.0, 0.0, 0.0),
+        turns,
+        force: Vector3::zeros(),
+        moment: Vector3::zeros(),
+    };
+    let none = || [0.0; 3].map(Amplitude::Constant);
+    let line = LineLoad { force: none(), moment: none() };
+    let ends = [end(Hold::Clamped, 0.0, 0.0), end(hold, z, turns)];
+    Arc::new(Problem::new(Law::Relaxed(law), LENGTH, ends, vec![], line).expect("a problem"))
+}
+
+/// What needs no boundary-value problem, or fewer states of one.
+fn held(c: &mut Criterion) {
+    let s: Vec<f64> = (0..=100).map(|i| LENGTH * f64::from(i) / 100.0).collect();
+    let start = Pose::new([0.0; 3], [1.0, 0.0, 0.0, 0.0]);
+    let settings = Settings { tolerance: 1e-12, ..Settings::default() };
+    let growth = || black_box(Growth::edge(0.06) + Growth::chiral(0.04));
+    let mut group = c.benchmark_group("pays");
+    group.sample_size(30);
+    let solved = |law| Solution::of(problem(law, Hold::Free, 0.0, 0.0), &settings, None).map(|x| x.many(&s));
+    group.bench_function("free end, uniform growth: the boundary-value problem", |b| {
+        b.iter(|| solved(ribbon(Amplitude::Constant(1.0), growth())));
+    });
+    group.bench_function("free end, growth that varies: the natural shape", |b| {
+        b.iter(|| {
+            let branches = natural_branches(&ribbon(along(&[1.0, 0.1]), growth()), LENGTH);
+            branches.map(|branches| branches[0].poses(&s, &start))
+        });
+    });
+    group.bench_function("free end, growth that varies: the boundary-value problem", |b| {
+        b.iter(|| solved(ribbon(along(&[1.0, 0.1]), growth())));
+    });
+    let law = ribbon(Amplitude::Constant(1.0), Growth::edge(0.02));
+    let problem = problem(law, Hold::Clamped, 9.0, 0.5);
+    for (states, layout) in [(7, Layout::Constant), (13, Layout::Full)] {
+        let settings = Settings { layout: Some(layout), ..Settings::default() };
+        group.bench_function(format!("both ends held, {states} states"), |b| {
+            b.iter(|| Solution::of(Arc::clone(&problem), &settings, None));
+        });
+        let mesh = Mesh::new(&problem, s.clone(), settings.degree).expect("a mesh");
+        let path = Path::new(&mesh, &Known::Natural(1.0)).expect("a shape");
+        let targets = path.targets(&problem, 0.5);
+        let mut system = System::with_layout(&mesh, layout).expect("a system");
+        group.bench_function(format!("an iteration on 100 elements, {states} states"), |b| {
+            b.iter(|| {
+                system.linearise(&path.x, &targets).expect("a regular matrix");
+                black_box(system.correction())
+            });
+        });
+        group.bench_function(format!("the same as one sparse matrix, {states} states"), |b| {
+            b.iter(|| {
+                system.linearise_sparsely(&path.x, &targets).expect("a regular matrix");
+                black_box(system.correction())
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, sections, ribbons, held);
 criterion_main!(benches);

@@ -2,6 +2,12 @@
 //!
 //! Each pair here is a row of the table in docs/performance.md, timed by benches/pays.rs.
 
+use std::sync::Arc;
+
+use nalgebra::{Quaternion, Vector3};
+use ribbonrs::boundary::{
+    End, Hold, Known, Law, Layout, LineLoad, Mesh, Path, Problem, Settings, Solution, System,
+};
 use ribbonrs::equilibrium::{natural_branches, natural_shapes};
 use ribbonrs::frame::{Pose, helix};
 use ribbonrs::growth::Growth;
@@ -124,5 +130,88 @@ fn modes_are_shared_along_the_ribbon() {
         let mut there = Growth::default();
         there.add_scaled(rising.evaluate(s), 1.0, &profile);
         assert_equal(law.station(s).unwrap().section(), &section(&there, Form::Auto));
+    }
+}
+
+/// A ribbon without loads, clamped at its start, and free or clamped after some turns at its end.
+fn problem(law: RibbonLaw, hold: Hold, z: f64, turns: f64) -> Arc<Problem> {
+    let end = |hold, z, turns| End {
+        hold,
+        position: Vector3::new(0.0, 0.0, z),
+        rotation: Quaternion::new(1.0, 0.0, 0.0, 0.0),
+        turns,
+        force: Vector3::zeros(),
+        moment: Vector3::zeros(),
+    };
+    let none = || [0.0; 3].map(Amplitude::Constant);
+    let line = LineLoad { force: none(), moment: none() };
+    let ends = [end(Hold::Clamped, 0.0, 0.0), end(hold, z, turns)];
+    Arc::new(Problem::new(Law::Relaxed(law), LENGTH, ends, vec![], line).unwrap())
+}
+
+/// Without loads and with a free end the boundary-value problem has the natural shape for its solution.
+#[test]
+fn natural_shape_and_boundary_value_problem() {
+    let s: Vec<f64> = (0..=100).map(|i| LENGTH * f64::from(i) / 100.0).collect();
+    let start = Pose::new([0.0; 3], [1.0, 0.0, 0.0, 0.0]);
+    let growth = || Growth::edge(0.06) + Growth::chiral(0.04);
+    let settings = Settings { tolerance: 1e-12, ..Settings::default() };
+    let solved = |law| {
+        let solution = Solution::of(problem(law, Hold::Free, 0.0, 0.0), &settings, None).unwrap();
+        assert!(solution.report.status.is_solved(), "{:?}", solution.report);
+        solution.many(&s).unwrap()
+    };
+    let compare = |law: RibbonLaw, strains: &dyn Fn(f64) -> Strain, poses: Vec<Pose>| {
+        for ((&s, pose), found) in s.iter().zip(poses).zip(solved(law)) {
+            let turn = (pose.rotation - found.at.rotation).norm();
+            assert!((pose.position - found.at.position).norm() < 1e-11 * LENGTH && turn < 1e-11, "{s}");
+            assert!((strains(s) - found.strain).norm() < 1e-11, "{s}");
+        }
+    };
+    let strain = natural_shapes(&section(&growth(), Form::Auto))[0].strain;
+    compare(ribbon(vec![(Amplitude::Constant(1.0), growth())]), &|_| strain, helix(&s, &strain, &start));
+    let rising = Piecewise::from_legendre(vec![0.0, LENGTH], vec![vec![1.0, 0.1]]).unwrap();
+    let varies = || ribbon(vec![(Amplitude::Along(rising.clone()), growth())]);
+    let branch = &natural_branches(&varies(), LENGTH).unwrap()[0];
+    compare(varies(), &|s| branch.strain(s), branch.poses(&s, &start));
+}
+
+#[test]
+fn seven_states_and_thirteen() {
+    let s: Vec<f64> = (0..=20).map(|i| LENGTH * f64::from(i) / 20.0).collect();
+    let growth = || ribbon(vec![(Amplitude::Constant(1.0), Growth::edge(0.02))]);
+    let [few, many] = [Layout::Constant, Layout::Full].map(|layout| {
+        let settings = Settings { tolerance: 1e-12, layout: Some(layout), ..Settings::default() };
+        let problem = problem(growth(), Hold::Clamped, 9.0, 0.5);
+        let solution = Solution::of(problem, &settings, None).unwrap();
+        assert!(solution.report.status.is_solved(), "{:?}", solution.report);
+        solution.many(&s).unwrap()
+    });
+    for (a, b) in few.iter().zip(&many) {
+        assert!((a.at.position - b.at.position).norm() < 1e-11 * LENGTH);
+        assert!((a.at.rotation - b.at.rotation).norm() < 1e-11 && (a.strain - b.strain).norm() < 1e-11);
+    }
+}
+
+/// Elements and nodes eliminated in turn, and everything as one sparse matrix.
+#[test]
+fn chain_and_sparse_matrix() {
+    let law = ribbon(vec![(Amplitude::Constant(1.0), Growth::edge(0.02))]);
+    let problem = problem(law, Hold::Clamped, 9.0, 0.5);
+    let nodes = (0..=100).map(|i| LENGTH * f64::from(i) / 100.0).collect();
+    let mesh = Mesh::new(&problem, nodes, Settings::default().degree).unwrap();
+    let path = Path::new(&mesh, &Known::Natural(1.0)).unwrap();
+    let targets = path.targets(&problem, 0.5);
+    let mut system = System::new(&mesh).unwrap();
+    system.linearise(&path.x, &targets).unwrap();
+    let chain = system.correction();
+    system.linearise_sparsely(&path.x, &targets).unwrap();
+    let sparse = system.correction();
+    let size = chain.norm(&mesh);
+    for (a, b) in chain.strains.iter().zip(&sparse.strains) {
+        assert!((a - b).norm() < 1e-11 * size);
+    }
+    for (a, b) in chain.nodes.iter().flatten().zip(sparse.nodes.iter().flatten()) {
+        assert!((a - b).abs() < 1e-11 * size);
     }
 }

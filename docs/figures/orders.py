@@ -102,14 +102,14 @@ def main() -> None:
             )
             print(f"{scene}, degree {degree}:", *(f"{order:.1f}" for order in orders))
             # The order, through the last point that rounding leaves alone.
-            span = elements[last] * np.array([0.2, 1.5])
+            span = elements[last] * np.array([0.5, 1.4])
             slope = error[last] * (elements[last] / span) ** (2.0 * degree)
             axis.loglog(
                 span, slope, ":", lw=1.2, color="k", label="slope 2 x degree" if degree == 8 else None
             )
         axis.set_title(TITLES[scene], fontsize=10)
         axis.set_xlabel("elements")
-        axis.set_ylim(1e-17, 10.0)
+        axis.set_ylim(1e-16, 10.0)
         axis.set_xlim(1.5, 500.0)
         axis.grid(alpha=0.3)
     axes[0].set_ylabel("error")

@@ -108,7 +108,8 @@ def solve(
     Of an unloaded ribbon clamped at its start and free at its end, without `guess` the stable one of lowest
     energy, of mirror images the one with K2 > 0, then K3 > 0; of a ribbon that varies along its length, the
     branch of stable shapes with the fewest jumps, then of lowest energy. Of a ribbon that is loaded or held
-    otherwise, the one continued from `guess`, or from zero load.
+    otherwise, the one continued from `guess`, or from zero load; if the latter is unstable, a stable one into
+    which it falls when it is disturbed, where one is found.
 
     Parameters
     ----------

@@ -73,13 +73,15 @@ def errors() -> dict[str, dict[int, tuple[np.ndarray[Any, Any], np.ndarray[Any, 
         reference = states[own & (table["elements"] == 0)][0]
         exact = elastica() if scene == "elastica" else reference
         print(f"{scene}: the reference is off by {largest(reference, exact):.1e}")
+        ratios: list[float] = []
         found[scene] = {}
         for degree in np.unique(table["degree"]):
             rows = own & (table["degree"] == degree) & (table["elements"] > 0)
-            found[scene][int(degree)] = (
-                table["elements"][rows],
-                np.array([largest(state, exact) for state in states[rows]]),
-            )
+            error = np.array([largest(state, exact) for state in states[rows]])
+            found[scene][int(degree)] = (table["elements"][rows], error)
+            clear = (error > 1e-12) & (error < 1e-2)
+            ratios.extend((table["estimate"][rows] / error)[clear])
+        print(f"{scene}: {len(ratios)} estimates are {min(ratios):.2f} to {max(ratios):.2f} times the error")
     return found
 
 

@@ -1,25 +1,33 @@
 //! The stability index: how many independent ways there are to lower the energy under the end conditions.
 //!
 //! Gauss collocation of the equilibrium equations is the stationarity of a discrete energy, so that the linearised
-//! elements hold its second variation. With the changes `d` of pose and `p = (dN, dM)` of the wrench at the nodes an
-//! element is
+//! elements hold its second variation. With the changes `d` of pose and `p = (dN, dM + M x phi/2)` of the wrench at the
+//! nodes (the term in `M` is half of what a moment that turns with the section changes by: it makes all blocks below
+//! symmetric) an element is
 //!
 //! ```text
-//! d_{i+1} = A d_i + B p_i,   p_{i+1} = C d_i + D p_i
+//! d_{i+1} = A d_i + B p_i,   p_{i+1} = C d_i + D p_i.
 //! ```
 //!
-//! and as a stiffness, from the wrenches `-p_i` and `p_{i+1}` that hold its ends,
+//! Its energy less the work of the wrench `p' = p_{i+1}` at its end is a function of `d_i` and `p'`, whose second
+//! derivatives ask for no inverse of the flexibility `B`, which is singular where a ribbon is rigid:
 //!
 //! ```text
-//! [ K_ss  K_se ]   [ B^-1 A           -B^-1   ]
-//! [ K_es  K_ee ] = [ C - D B^-1 A     D B^-1  ].
+//! dd: D^-1 C,   dp': -D^-1,   p'p': -B D^-1.
 //! ```
 //!
-//! (Turning the frames makes the diagonal blocks unsymmetric, by parts that cancel between neighbours in equilibrium;
-//! their symmetric parts are taken.) The nodes are eliminated from the start: `W_{i+1} = K_ee - K_es (W_i + K_ss)^-1 K_se`,
-//! and the negative eigenvalues of every pivot `W_i + K_ss` and of the last, restricted to what the ends leave free, are
-//! counted: by Sylvester's law of inertia they are those of the whole. An element that is clamped at both ends is stable
-//! by itself where its section is, if it is short; one that is not is counted as infinitely unstable.
+//! With the terms `p'.d_{i+1}` that join the elements, the whole is a symmetric matrix in `p'` and `d`, of as many
+//! negative eigenvalues as there are components of `p'`, and the index. The pairs `(p'_{i-1}, d_i)` are eliminated from
+//! the start, which is safe since they are joined by an identity; what is carried to the next is minus the flexibility
+//! `F` of all that is behind, and by Sylvester's law of inertia the negative eigenvalues of the pivots are counted,
+//!
+//! ```text
+//! [ -F_i   1      ]
+//! [  1     D^-1 C ],      the last  [ -F_N   Z ]
+//!                                   [ Z^T    0 ]  with what the end leaves free.
+//! ```
+//!
+//! What the start leaves free is held by very soft springs.
 
 use nalgebra::{DMatrix, Matrix6, SMatrix, Vector3};
 
@@ -29,13 +37,16 @@ use super::transfer::Rows;
 
 type Vector = Vector3<f64>;
 
-/// Eigenvalues of pivots above minus this part of the largest, a few roundings, are zero.
-const ZERO: f64 = 4e-15;
-/// The same where a closed ribbon may glide along itself, which the error of the mesh makes a little more or less than
-/// nothing.
-const GLIDING: f64 = 1e-10;
-/// What replaces a compliance of zero, relative to the largest.
-const RIGID: f64 = 1e-8;
+/// Eigenvalues of the flexibility of an element below minus this part of the largest are those of buckling, which come
+/// from infinity.
+const BUCKLED: f64 = 1e-6;
+/// Stiffness of the springs, in units of the soft stiffness of the whole ribbon.
+const SPRING: f64 = 1e-7;
+/// Eigenvalues of the last pivot of this part of the largest are zero where a closed ribbon may glide along itself,
+/// which the error of the mesh makes a little more or less.
+const GLIDING: f64 = 1e-8;
+/// The same, a few roundings, where the ends hold what is rigid.
+const ROUNDING: f64 = 1e-13;
 
 impl Problem {
     /// Whether the loads have a potential: a moment that is fixed in space has none, unless it is about a hinge.
@@ -67,64 +78,6 @@ fn unit(i: usize) -> [f64; 6] {
     std::array::from_fn(|k| f64::from(u8::from(i == k)))
 }
 
-/// An element as a stiffness: at its start, from start to end, and at its end.
-struct Stiffness {
-    start: Matrix6<f64>,
-    across: Matrix6<f64>,
-    end: Matrix6<f64>,
-}
-
-impl Stiffness {
-    /// From the change of the end pose and moment about the origin by those at the start, all in units of the problem.
-    fn new(rows: &Rows, ends: [&Place; 2], units: &Units, rigid: bool) -> Option<Self> {
-        let (from, to) = (&ends[0].position, &ends[1].position);
-        let force = [&ends[0].force[1], &ends[1].force[0]];
-        // p holds the moment about the node itself: dC = dM + dr x N + r x dN.
-        let arm = |position: &Vector| position.cross_matrix() * (units.force / units.moment);
-        let lever = |force: &Vector| -force.cross_matrix() * (units.length / units.moment);
-        let block = |i: usize, k: usize| rows.fixed_view::<3, 3>(3 * i, 3 * k).into_owned();
-        let (mut a, mut b) = (Matrix6::zeros(), Matrix6::zeros());
-        let (mut c, mut d) = (Matrix6::zeros(), Matrix6::zeros());
-        for i in 0..3 {
-            let by_position = block(i, 0) + block(i, 3) * lever(force[0]);
-            let by_force = block(i, 2) + block(i, 3) * arm(from);
-            let (by_rotation, by_moment) = (block(i, 1), block(i, 3));
-            if i < 2 {
-                a.fixed_view_mut::<3, 3>(3 * i, 0).copy_from(&by_position);
-                a.fixed_view_mut::<3, 3>(3 * i, 3).copy_from(&by_rotation);
-                b.fixed_view_mut::<3, 3>(3 * i, 0).copy_from(&by_force);
-                b.fixed_view_mut::<3, 3>(3 * i, 3).copy_from(&by_moment);
-            } else {
-                c.fixed_view_mut::<3, 3>(3, 0).copy_from(&by_position);
-                c.fixed_view_mut::<3, 3>(3, 3).copy_from(&by_rotation);
-                d.fixed_view_mut::<3, 3>(3, 0).copy_from(&by_force);
-                d.fixed_view_mut::<3, 3>(3, 3).copy_from(&by_moment);
-            }
-        }
-        d.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
-        // M = C - r x N at the end, whose pose has changed by a and b.
-        for (target, pose, by_force) in [(&mut c, &a, 0.0), (&mut d, &b, 1.0)] {
-            let moved = lever(force[1]) * pose.fixed_view::<3, 6>(0, 0);
-            let mut moment = target.fixed_view_mut::<3, 6>(3, 0);
-            moment -= moved;
-            let mut own = target.fixed_view_mut::<3, 3>(3, 0);
-            own -= arm(to) * by_force;
-        }
-        if rigid {
-            // What nothing deforms would have no inverse.
-            let largest = b.amax();
-            (0..6).for_each(|i| b[(i, i)] += RIGID * largest);
-        }
-        let inverse = b.try_inverse()?;
-        // Conjugate to length and angle are units.force * length and units.moment, which are equal.
-        Some(Self { start: symmetric(&(inverse * a)), across: -inverse, end: symmetric(&(d * inverse)) })
-    }
-}
-
-fn symmetric(k: &Matrix6<f64>) -> Matrix6<f64> {
-    0.5 * (k + k.transpose())
-}
-
 /// What is known of a node.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
@@ -132,61 +85,103 @@ pub struct Place {
     pub position: Vector,
     /// Internal force to its left and right.
     pub force: [Vector; 2],
+    /// Internal moment.
+    pub moment: Vector,
+}
+
+/// The second derivatives of an element.
+struct Blocks {
+    dd: Matrix6<f64>,
+    dp: Matrix6<f64>,
+    pp: Matrix6<f64>,
+}
+
+impl Blocks {
+    /// From the change of the end pose and moment about the origin by those at the start, all in units of the problem.
+    fn new(rows: &Rows, ends: [&Place; 2], units: &Units) -> Option<Self> {
+        // p holds the moment about the node itself: dC = dM + dr x N + r x dN.
+        let arm = |place: &Place| place.position.cross_matrix() * (units.force / units.moment);
+        let lever = |force: &Vector| -force.cross_matrix() * (units.length / units.moment);
+        let half = |place: &Place| {
+            let mut half = Matrix6::zeros();
+            let turning = place.moment.cross_matrix() * (0.5 / units.moment);
+            half.fixed_view_mut::<3, 3>(3, 3).copy_from(&turning);
+            half
+        };
+        let block = |i: usize, k: usize| rows.fixed_view::<3, 3>(3 * i, 3 * k).into_owned();
+        // Rows of pose and moment by pose, then by wrench.
+        let (mut by_pose, mut by_wrench) = (SMatrix::<f64, 9, 6>::zeros(), SMatrix::<f64, 9, 6>::zeros());
+        for i in 0..3 {
+            let by_position = block(i, 0) + block(i, 3) * lever(&ends[0].force[1]);
+            by_pose.fixed_view_mut::<3, 3>(3 * i, 0).copy_from(&by_position);
+            by_pose.fixed_view_mut::<3, 3>(3 * i, 3).copy_from(&block(i, 1));
+            let by_force = block(i, 2) + block(i, 3) * arm(ends[0]);
+            by_wrench.fixed_view_mut::<3, 3>(3 * i, 0).copy_from(&by_force);
+            by_wrench.fixed_view_mut::<3, 3>(3 * i, 3).copy_from(&block(i, 3));
+        }
+        let (mut c, mut d) = (Matrix6::zeros(), Matrix6::identity());
+        // M = C - r x N at the end, whose pose has changed, too.
+        let leaving = lever(&ends[1].force[0]);
+        let moment = by_pose.fixed_view::<3, 6>(6, 0) - leaving * by_pose.fixed_view::<3, 6>(0, 0);
+        c.fixed_view_mut::<3, 6>(3, 0).copy_from(&moment);
+        let moment = by_wrench.fixed_view::<3, 6>(6, 0) - leaving * by_wrench.fixed_view::<3, 6>(0, 0);
+        d.fixed_view_mut::<3, 6>(3, 0).copy_from(&moment);
+        let mut own = d.fixed_view_mut::<3, 3>(3, 0);
+        own -= arm(ends[1]);
+        let (a, b) =
+            (by_pose.fixed_view::<6, 6>(0, 0).into_owned(), by_wrench.fixed_view::<6, 6>(0, 0).into_owned());
+        let [start, end] = ends.map(half);
+        let d = d + end * b;
+        let c = c + end * a - d * start;
+        let inverse = d.try_inverse()?;
+        Some(Self { dd: symmetric(&(inverse * c)), dp: -inverse, pp: symmetric(&(-b * inverse)) })
+    }
+}
+
+fn symmetric(k: &Matrix6<f64>) -> Matrix6<f64> {
+    0.5 * (k + k.transpose())
 }
 
 /// The index under the end conditions; `None` where it cannot be told.
 #[must_use]
 pub fn index(problem: &Problem, rows: &[Rows], places: &[Place], units: &Units) -> Option<usize> {
     let rigid = problem.law.at(0.0).ok()?.compliance.min() == 0.0;
-    let zero = if problem.glides() { GLIDING } else { ZERO };
-    let mut negative = 0;
-    // The stiffness of what is behind, at the node ahead; at first what the start leaves free.
-    let mut behind: Option<Matrix6<f64>> = None;
+    let free = freedom(problem.ends[0].hold);
+    let springs = &free * free.transpose() / -SPRING;
+    let mut behind: Matrix6<f64> = SMatrix::from_iterator(springs.iter().copied());
+    let mut index = 0_isize;
     for (rows, ends) in rows.iter().zip(places.windows(2)) {
-        let element = Stiffness::new(rows, [&ends[0], &ends[1]], units, rigid)?;
-        let (pivot, across) = match behind {
-            Some(w) => {
-                let pivot = DMatrix::from_iterator(6, 6, (w + element.start).iter().copied());
-                (pivot, DMatrix::from_iterator(6, 6, element.across.iter().copied()))
-            }
-            None => {
-                let free = freedom(problem.ends[0].hold);
-                let start = DMatrix::from_iterator(6, 6, element.start.iter().copied());
-                let across = DMatrix::from_iterator(6, 6, element.across.iter().copied());
-                (free.transpose() * start * &free, free.transpose() * across)
-            }
-        };
-        let mut end = element.end;
-        if pivot.nrows() > 0 {
-            let (count, solved) = eliminated(&pivot, &across, zero)?;
-            negative += count;
-            let softened: SMatrix<f64, 6, 6> =
-                SMatrix::from_iterator((across.transpose() * solved).iter().copied());
-            end -= symmetric(&softened);
+        let element = Blocks::new(rows, [&ends[0], &ends[1]], units)?;
+        // An element so long that it buckles by itself, held at its start alone: its strains were eliminated at that.
+        let own = element.pp.symmetric_eigenvalues();
+        index += own.iter().filter(|&&value| value > BUCKLED * own.amax()).count() as isize;
+        let mut pivot = SMatrix::<f64, 12, 12>::zeros();
+        pivot.fixed_view_mut::<6, 6>(0, 0).copy_from(&behind);
+        pivot.fixed_view_mut::<6, 6>(0, 6).fill_with_identity();
+        pivot.fixed_view_mut::<6, 6>(6, 0).fill_with_identity();
+        pivot.fixed_view_mut::<6, 6>(6, 6).copy_from(&element.dd);
+        if !pivot.iter().all(|x| x.is_finite()) {
+            return None;
         }
-        behind = Some(end);
+        index += pivot.symmetric_eigenvalues().iter().filter(|&&value| value < 0.0).count() as isize - 6;
+        let inverse = pivot.try_inverse()?;
+        let own = inverse.fixed_view::<6, 6>(6, 6);
+        behind = symmetric(&(element.pp - element.dp.transpose() * own * element.dp));
     }
     let free = freedom(problem.ends[1].hold);
-    if free.ncols() > 0 {
-        let last = DMatrix::from_iterator(6, 6, behind?.iter().copied());
-        negative += count_negative(&(free.transpose() * last * &free), zero)?;
-    }
-    Some(negative)
-}
-
-/// Number of negative eigenvalues of a pivot, and its solution.
-fn eliminated(pivot: &DMatrix<f64>, across: &DMatrix<f64>, zero: f64) -> Option<(usize, DMatrix<f64>)> {
-    if let Some(factor) = pivot.clone().cholesky() {
-        return Some((0, factor.solve(across)));
-    }
-    Some((count_negative(pivot, zero)?, pivot.clone().lu().solve(across)?))
-}
-
-fn count_negative(pivot: &DMatrix<f64>, zero: f64) -> Option<usize> {
-    if !pivot.iter().all(|x| x.is_finite()) {
-        return None;
-    }
-    let values = pivot.symmetric_eigenvalues();
-    let least = -zero * values.amax();
-    Some(values.iter().filter(|&&value| value < least).count())
+    let size = 6 + free.ncols();
+    let mut last = DMatrix::zeros(size, size);
+    last.view_mut((0, 0), (6, 6)).copy_from(&behind);
+    last.view_mut((0, 6), (6, free.ncols())).copy_from(&free);
+    last.view_mut((6, 0), (free.ncols(), 6)).copy_from(&free.transpose());
+    let values = last.symmetric_eigenvalues();
+    // No flexibility at all is a little of it; of gliding there is neither more nor less.
+    let zero = match (problem.glides(), rigid) {
+        (true, _) => -GLIDING,
+        (false, true) => ROUNDING,
+        (false, false) => 0.0,
+    };
+    let largest = values.amax();
+    index += values.iter().filter(|&&value| value < zero * largest).count() as isize - 6;
+    usize::try_from(index).ok()
 }

@@ -471,7 +471,7 @@ impl<'m, 'p> System<'m, 'p> {
         }
         let place = |(i, at): (usize, &super::ends::At)| {
             let jump = self.mesh.points[i].map_or(Vector::zeros(), |(force, _)| targets.load * force);
-            Place { position: at.position, force: [at.force + jump, at.force] }
+            Place { position: at.position, force: [at.force + jump, at.force], moment: at.moment() }
         };
         let places: Vec<Place> = x.nodes.iter().enumerate().map(place).collect();
         index(self.mesh.problem, &rows, &places, &self.units)

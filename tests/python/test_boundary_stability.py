@@ -197,3 +197,18 @@ def test_a_dense_count_agrees(growth, k, guess, expected):
     count, values = negative_directions(state, 12)
     assert count == expected, values[:4]
     assert state.index == expected
+
+
+@pytest.mark.parametrize("EI1", [10.0, 1e6, math.inf])
+def test_stiffness_that_is_not_used_does_not_matter(EI1):
+    # a planar state is the same for every EI1, and stiffer ones are not less stable
+    law = rb.LinearLaw(EI1=EI1, EI2=1.0, GJ=1.0, inextensible=True)
+    scene = rb.Scene(UNIT, None, law=law, end=rb.Free((50.0, 0.0, 0.0)))
+    assert [rb.solve(scene, degree=degree).index for degree in (2, 3, 5, 7)] == [0.0] * 4
+
+
+@pytest.mark.parametrize("eta", [1e-2, 1e-3, 1e-5])
+def test_thin_ribbons(eta):
+    force = 5.0 * eta**2 / 12.0 / 100.0
+    scene = rb.Scene(rb.Ribbon(10.0, 1.0, eta), None, end=rb.Free((force, 0.0, 0.0)))
+    assert [rb.solve(scene, degree=degree, tol=1e-8).index for degree in (2, 3, 5)] == [0.0] * 3

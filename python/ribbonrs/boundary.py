@@ -28,6 +28,9 @@ METHOD = "Gauss collocation"
 HIGHEST = 8
 """Highest degree of the collocation."""
 
+LARGEST_STRAIN = 0.1
+"""Axial strain beyond that of growth that the theory is good for."""
+
 SAMPLES = 201
 """Points at which a guess is handed to the core, besides its own breaks."""
 
@@ -72,13 +75,30 @@ def equilibrium(
     if solution.status == "rounding_limited":
         message = f"tol = {tol:g} is below rounding: the error is about {solution.error:.1e}"
         warnings.warn(message, RibbonWarning, stacklevel=4)
-    if guess is None and solution.section_index > 0:
-        message = (
-            f"section_index = {solution.section_index}: the state is unstable where its sections are; "
-            "a stable one, if there is one, may have kinks"
-        )
-        warnings.warn(message, RibbonWarning, stacklevel=4)
-    return _state(scene, solution, tol, n)
+    state = _state(scene, solution, tol, n)
+    if guess is None and state.stable is False:
+        _warn_unstable(state)
+    _warn_stretched(state)
+    return state
+
+
+def _warn_unstable(state: State) -> None:
+    told = f"index = {state.index:g}: the state is unstable"
+    if state.section_index > 0:
+        told = f"section_index = {state.section_index}: the state is unstable where its sections are"
+    message = f"{told}; no stable one was found, which guess= may lead to"
+    warnings.warn(message, RibbonWarning, stacklevel=5)
+
+
+def _warn_stretched(state: State) -> None:
+    """Warn where strains are beyond the theory, of the ribbon and not of a law of its own."""
+    if isinstance(state.scene.law, LinearLaw):
+        return
+    eps = state.strains[:, 0]
+    largest = float(eps[np.argmax(np.abs(eps))])
+    if abs(largest) > LARGEST_STRAIN + state.scene.growth_size:
+        message = f"eps = {largest:.3g}: the theory is for strains small against 1"
+        warnings.warn(message, RibbonWarning, stacklevel=5)
 
 
 def _core_guess(scene: Scene, guess: State | ArrayLike) -> _core._Guess:

@@ -101,6 +101,17 @@ pub fn residual(mesh: &Mesh<'_>, x: &Iterate) -> Result<f64, InvalidInput> {
     Ok(worst.0)
 }
 
+/// What rounding of forces and moments makes of strains, which are soft in bending and twist.
+///
+/// # Errors
+/// Where a section is refused.
+pub fn rounding(mesh: &Mesh<'_>, x: &Iterate) -> Result<f64, InvalidInput> {
+    let compliance = mesh.problem.law.at(0.0)?.compliance;
+    let softest = compliance.rows(1, 3).max() * mesh.problem.length;
+    let size = |at: &At| at.about_origin.norm() + at.position.norm() * at.force.norm();
+    Ok(100.0 * f64::EPSILON * softest * x.nodes.iter().map(size).fold(0.0, f64::max))
+}
+
 struct Worst(f64);
 
 impl Worst {

@@ -57,8 +57,16 @@ const fn wave(bend: f64, twist: f64) -> Disturbance {
     Disturbance { of_straight: false, bend, twist, size: 2.0 }
 }
 
-const DISTURBANCES: [Disturbance; 6] =
-    [wave(1.0, 1.0), wave(1.0, -2.0), wave(2.0, 1.0), wave(-1.0, 2.0), wave(3.0, -1.0), wave(2.0, 3.0)];
+const DISTURBANCES: [Disturbance; 8] = [
+    wave(0.5, 0.0),
+    wave(1.0, 1.0),
+    wave(1.0, -2.0),
+    wave(2.0, 1.0),
+    wave(-1.0, 2.0),
+    wave(3.0, -1.0),
+    wave(2.0, 3.0),
+    wave(0.5, 0.5),
+];
 
 /// The shape of the disturbed strains, from the start.
 fn disturbed(mesh: &Mesh<'_>, x: &Iterate, disturbance: &Disturbance) -> Result<Guess, InvalidInput> {

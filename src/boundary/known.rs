@@ -141,9 +141,11 @@ fn imperfection(problem: &Problem, natural: &Strain) -> Result<impl Fn(f64) -> S
     let curved = natural.rows(2, 2).amax() > 1e-3 * eta;
     let largest = eta * if curved { SLIGHT_IF_CURVED } else { SLIGHT };
     let size = (IMPERFECTION / length).min(largest);
+    let clamped = problem.ends.iter().all(|end| end.hold.holds_rotation());
     Ok(move |s: f64| {
         let x = s / length;
-        let bend = 0.3 + 0.2 * x - (2.0 * PI * x).cos();
+        // Like the first buckle of such ends: both ways between clamps, else one way.
+        let bend = if clamped { 0.3 + 0.2 * x - (2.0 * PI * x).cos() } else { 1.0 + 0.2 * x };
         let twist = 0.25 * (1.0 - 0.3 * x + (PI * x).cos());
         Strain::new(0.0, 0.0, bend, twist) * size
     })
@@ -293,9 +295,20 @@ fn hang(mesh: &Mesh<'_>, nodes: &mut [At]) {
     }
     let half = 0.5 * b.atan2(a);
     let turn = Quaternion::from_parts(half.cos(), axis * half.sin());
-    for node in nodes {
+    for node in nodes.iter_mut() {
         let arm = Quaternion::from_imag(node.position - through);
         *node = at_rest(through + (turn * arm * turn.conjugate()).imag(), turn * node.rotation);
+    }
+    // A force at the free end is carried from the first: it is what holds the shape there.
+    for (hold, end, node, outward) in
+        [(start, &problem.ends[0], 0, -1.0), (end, &problem.ends[1], mesh.elements(), 1.0)]
+    {
+        if hold == Hold::Free {
+            let (force, at) = (outward * end.force, nodes[node].position);
+            for node in nodes.iter_mut() {
+                (node.force, node.about_origin) = (force, at.cross(&force));
+            }
+        }
     }
 }
 

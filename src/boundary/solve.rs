@@ -335,8 +335,13 @@ pub fn adapted<'p>(
             let residual = check::residual(&mesh, &x)?;
             let mut report = spent.report(status, reason, 1.0, ended.norms);
             (report.error, report.residual, report.condition) = (error, residual, condition);
+            if let Some(e) = x.strains.iter().find(|e| !(e[0] > -1.0)) {
+                report.status = Status::Diverged;
+                report.reason = format!("the ribbon is compressed to nothing: eps = {:.3}", e[0]);
+            }
             // NaN is refused, too.
-            if status.is_solved() && !(residual <= 10.0 * error.max(1e-9).max(settings.tolerance)) {
+            let enough = error.max(1e-9).max(settings.tolerance).max(check::rounding(&mesh, &x)?);
+            if status.is_solved() && !(residual <= 10.0 * enough) {
                 report.status = Status::Diverged;
                 report.reason = format!("the independent check finds a residual of {residual:.1e}");
             }

@@ -141,8 +141,8 @@ def solve(
     Warns
     -----
     RibbonWarning
-        Where the shape jumps along the ribbon; if a held or loaded one is unstable (and no guess asks for it) or
-        stretched by more than a tenth; if rounding is larger than `tol`; if the ribbon bends so much
+        Where the shape jumps along the ribbon; if a held or loaded one is unstable (and no guess asks for it)
+        or stretched by more than a tenth; if rounding is larger than `tol`; if the ribbon bends so much
         that the law of growth that jumps loses digits; and with ``law="quadratic"``, if \|K2\|/eta > 7.46
         (incompressible material), where its series diverges.
 

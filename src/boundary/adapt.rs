@@ -107,7 +107,8 @@ fn largest(correction: &Correction, problem: &Problem) -> f64 {
 
 /// Error that a new mesh is made for, of the tolerance.
 const AIM: f64 = 0.2;
-/// By how much the number of elements may grow at once.
+/// By how much the number of elements grows at least, for else nothing might change, and at most.
+const LEAST_GROWTH: f64 = 1.25;
 const GROWTH: f64 = 4.0;
 /// Lengths of decay that an element spans at most: over many a step from its start amplifies what the ends damp.
 const LONGEST_LAYER: f64 = 4.0;
@@ -124,7 +125,7 @@ pub fn refined(mesh: &Mesh<'_>, estimate: &Estimate, tolerance: f64) -> Vec<f64>
     let integral: f64 = shares.iter().sum();
     let amplified = estimate.error / total.max(1e-300);
     let wanted = (amplified * integral.powf(order + 1.0) / (AIM * tolerance)).powf(1.0 / order);
-    let wanted = wanted.clamp(0.5 * count, GROWTH * count).max(1.0);
+    let wanted = wanted.clamp(LEAST_GROWTH * count, GROWTH * count).max(1.0);
     let length = mesh.problem.length;
     // Elements per length, no element much longer than the mean.
     let density: Vec<f64> = shares

@@ -21,8 +21,9 @@ pub fn fallen(
     unstable: Solved,
     spent: &mut Spent,
 ) -> Result<Solved, InvalidInput> {
-    let bow = problem.twist().map(|_| Disturbance { of_straight: true, bend: 2.0, twist: 0.0, size: 6.0 });
-    for disturbance in bow.into_iter().chain(DISTURBANCES) {
+    // Between clamps also from the straight, twisted ribbon, bent anew.
+    let straight = BOWS.into_iter().filter(|_| problem.twist().is_some());
+    for disturbance in straight.chain(DISTURBANCES) {
         spent.allowed = spent.work + LITTLE_WORK;
         let mesh = Mesh::new(problem, unstable.nodes.clone(), settings.degree)?;
         let guess = disturbed(&mesh, &unstable.x, &disturbance)?;
@@ -56,6 +57,12 @@ struct Disturbance {
 const fn wave(bend: f64, twist: f64) -> Disturbance {
     Disturbance { of_straight: false, bend, twist, size: 2.0 }
 }
+
+const fn bow(bend: f64, twist: f64, size: f64) -> Disturbance {
+    Disturbance { of_straight: true, bend, twist, size }
+}
+
+const BOWS: [Disturbance; 3] = [bow(2.0, 0.0, 6.0), bow(0.5, 0.0, 4.0), bow(1.0, 1.0, 4.0)];
 
 const DISTURBANCES: [Disturbance; 8] = [
     wave(0.5, 0.0),

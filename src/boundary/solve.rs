@@ -102,6 +102,8 @@ impl Problem {
     }
 }
 
+/// Errors above this are not those of rounding.
+const LARGEST_ROUNDING: f64 = 1e-7;
 /// Meshes that are too many.
 const MOST_MESHES: usize = 25;
 
@@ -282,7 +284,7 @@ pub fn adapted<'p>(
 ) -> Result<Solved, InvalidInput> {
     let problem: &'p Problem = mesh.problem;
     let meshes = spent.meshes;
-    let mut before: Option<(f64, usize)> = None;
+    let (mut before, mut stalls): (Option<f64>, usize) = (None, 0);
     let control =
         Control { tolerance: (1e-2 * settings.tolerance).max(1e-15), iterations: 25, least_step: 1e-2 };
     let goal = goal(problem);
@@ -312,7 +314,9 @@ pub fn adapted<'p>(
         let error = estimated.error;
         let condition = system.condition();
         let count = mesh.elements();
-        let stalled = before.is_some_and(|(e, n)| error > 0.5 * e && error < 1e-6 && count > n);
+        stalls = if before.is_some_and(|e| error > 0.5 * e) { stalls + 1 } else { 0 };
+        // Once may be a mesh that was still too coarse; orders of two and more halve the error soon.
+        let stalled = stalls >= 2 && error < LARGEST_ROUNDING;
         let status = if error <= settings.tolerance {
             Some(Status::Converged)
         } else if stalled {
@@ -347,7 +351,7 @@ pub fn adapted<'p>(
             }
             return Ok(Solved { nodes: mesh.nodes, x, report });
         }
-        before = Some((error, count));
+        before = Some(error);
         let nodes = refined(&mesh, &estimated, settings.tolerance);
         let finer = Mesh::new(problem, nodes, settings.degree)?;
         x = transferred(&x, &mesh, &finer)?;

@@ -205,8 +205,8 @@ pub fn followed<'p>(
     }
 }
 
-/// Factorised elements of an attempt that are too many: some ten seconds.
-const MOST_WORK: usize = 2_000_000;
+/// Factorised elements of an attempt that are too many: some five seconds.
+const MOST_WORK: usize = 1_000_000;
 /// Error that a mesh on a careful way is made for.
 const ERROR_ON_THE_WAY: f64 = 1e-3;
 /// Elements of a mesh on the way that are no longer refined.

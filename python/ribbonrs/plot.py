@@ -67,7 +67,7 @@ def plot(state: State, path: str | PathLike[str] | None = None) -> Figure:
     Raises
     ------
     InputError
-        A suffix that matplotlib does not know.
+        A suffix that matplotlib does not know, or a directory that does not exist.
     """
     picture = render(state)
     marks = marks_of(state, picture)
@@ -259,5 +259,7 @@ def _write(figure: Figure, path: str | PathLike[str]) -> None:
     suffix = Path(path).suffix.lower().removeprefix(".")
     if suffix not in known:
         raise InputError("path", str(path), "a file name ending in one of ." + ", .".join(sorted(known)))
+    if not Path(path).parent.is_dir():
+        raise InputError("path", str(path), "a file in a directory that exists")
     with replacing(path) as temporary:
         figure.savefig(temporary, format=suffix)

@@ -401,3 +401,8 @@ def test_linear_laws_are_told(scene, capsys):
     screen = " ".join(capsys.readouterr().out.split())
     assert "law EA = inf, EI1 = inf, EI2 = 0.001, GJ = 0.001" in screen
     assert "growth none" in screen
+
+
+def test_a_figure_needs_a_directory(states, tmp_path):
+    with pytest.raises(rb.InputError, match="expected a file in a directory that exists"):
+        states["cantilever"].plot(tmp_path / "nowhere" / "figure.png")

@@ -12,7 +12,7 @@
 //! ```
 //!
 //! It pivots across elements, and so solves where the stages of one element alone are singular, as those of a section at
-//! the bifurcation of its law are. It is the reference for [`super::chain::Chain`], which takes a fifth of the time.
+//! the bifurcation of its law are. It is the reference for [`super::chain::Chain`], which takes a fifth to a third of the time.
 
 #![expect(clippy::neg_cmp_op_on_partial_ord, reason = "what is not a number fails every test")]
 

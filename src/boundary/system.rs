@@ -480,7 +480,8 @@ impl<'m, 'p> System<'m, 'p> {
     /// Condition number of what is left when all nodes but the last are eliminated.
     #[must_use]
     pub fn condition(&self) -> f64 {
-        self.chain.condition()
+        // Of the sparse matrix it is not known.
+        if self.sparse.is_some() { f64::INFINITY } else { self.chain.condition() }
     }
 
     /// By what the law is violated at each stage, as last evaluated.

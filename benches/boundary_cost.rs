@@ -6,34 +6,16 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use nalgebra::{DMatrix, Quaternion, Vector3};
+use nalgebra::{DMatrix, Vector3};
 use ribbonrs::boundary::{End, Hold, Known, Law, Layout, LineLoad, Mesh, Path, Problem, System, Targets};
 use ribbonrs::growth::Growth;
-use ribbonrs::material::PlaneStress;
-use ribbonrs::section::{Amplitude, Form, RibbonLaw, RibbonSpec};
-
-type Vector = Vector3<f64>;
+use ribbonrs::section::{RibbonLaw, RibbonSpec};
 
 fn problem() -> Problem {
-    let law = RibbonLaw::new(RibbonSpec {
-        eta: 0.1,
-        stiffness: PlaneStress::incompressible(),
-        form: Form::Auto,
-        growth: vec![(Amplitude::Constant(1.0), Growth::edge(0.02))],
-        width: Amplitude::Constant(1.0),
-        thickness: Amplitude::Constant(1.0),
-    });
-    let end = |z: f64, turns| End {
-        hold: Hold::Clamped,
-        position: Vector::new(0.0, 0.0, z),
-        rotation: Quaternion::new(1.0, 0.0, 0.0, 0.0),
-        turns,
-        force: Vector::zeros(),
-        moment: Vector::zeros(),
-    };
-    let none = || [0.0; 3].map(Amplitude::Constant);
-    let line = LineLoad { force: none(), moment: none() };
-    Problem::new(Law::Relaxed(law.unwrap()), 10.0, [end(0.0, 0.0), end(9.0, 0.5)], vec![], line).unwrap()
+    let law = RibbonLaw::new(RibbonSpec::uniform(0.1, Growth::edge(0.02))).expect("a law for this growth");
+    let far = End { position: Vector3::new(0.0, 0.0, 9.0), turns: 0.5, ..End::new(Hold::Clamped) };
+    let (ends, line) = ([End::new(Hold::Clamped), far], LineLoad::uniform([0.0; 3]));
+    Problem::new(Law::Relaxed(law), 10.0, ends, vec![], line).expect("a problem")
 }
 
 /// Median of the seconds that `run` takes.
@@ -52,12 +34,12 @@ fn median(repeats: usize, mut run: impl FnMut()) -> f64 {
 /// Seconds of a linearisation and a correction.
 fn iteration(problem: &Problem, elements: usize, degree: usize, layout: Layout, repeats: usize) -> f64 {
     let nodes = (0..=elements).map(|i| 10.0 * i as f64 / elements as f64).collect();
-    let mesh = Mesh::new(problem, nodes, degree).unwrap();
-    let path = Path::new(&mesh, &Known::Straight(1.0)).unwrap();
+    let mesh = Mesh::new(problem, nodes, degree).expect("a mesh");
+    let path = Path::new(&mesh, &Known::Straight(1.0)).expect("a shape");
     let targets: Targets = path.targets(problem, 0.5);
-    let mut system = System::with_layout(&mesh, layout).unwrap();
+    let mut system = System::with_layout(&mesh, layout).expect("a system");
     median(repeats, || {
-        system.linearise(&path.x, &targets).unwrap();
+        system.linearise(&path.x, &targets).expect("a regular matrix");
         black_box(system.correction());
     })
 }

@@ -6,61 +6,40 @@
 
 use std::sync::Arc;
 
-use nalgebra::{Quaternion, Vector3};
+use nalgebra::Vector3;
 use ribbonrs::boundary::{
     End, Guess, Hold, Law, LineLoad, PointLoad, Problem, Rod, Settings, Solution, Status,
 };
 use ribbonrs::growth::Growth;
-use ribbonrs::material::PlaneStress;
-use ribbonrs::section::{Amplitude, Form, RibbonLaw, RibbonSpec, Strain};
+use ribbonrs::section::{RibbonLaw, RibbonSpec, Strain};
 
 type Vector = Vector3<f64>;
 
 const PLACE: f64 = 0.37;
 
-fn end(hold: Hold) -> End {
-    End {
-        hold,
-        position: Vector::zeros(),
-        rotation: Quaternion::new(1.0, 0.0, 0.0, 0.0),
-        turns: 0.0,
-        force: Vector::zeros(),
-        moment: Vector::zeros(),
-    }
-}
-
-fn line(force: [f64; 3]) -> LineLoad {
-    LineLoad { force: force.map(Amplitude::Constant), moment: [0.0; 3].map(Amplitude::Constant) }
-}
-
 /// An inextensible cantilever under a dead load at its tip, `P L^2/EI = 3`.
 fn elastica() -> Problem {
     let rod = Rod { compliance: Strain::new(0.0, 0.01, 1.0, 1.0), intrinsic: Strain::zeros() };
-    let tip = End { force: Vector::new(3.0, 0.0, 0.0), ..end(Hold::Free) };
-    Problem::new(Law::Rod(rod), 1.0, [end(Hold::Clamped), tip], vec![], line([0.0; 3])).unwrap()
+    let tip = End { force: Vector::new(3.0, 0.0, 0.0), ..End::new(Hold::Free) };
+    Problem::new(Law::Rod(rod), 1.0, [End::new(Hold::Clamped), tip], vec![], LineLoad::uniform([0.0; 3]))
+        .expect("a problem")
 }
 
 /// Grown edges, clamped a quarter of a turn apart and shortened, with weight and a load at `S = 4`.
 fn ribbon() -> Problem {
-    let spec = RibbonSpec {
-        eta: 0.1,
-        stiffness: PlaneStress::incompressible(),
-        form: Form::Auto,
-        growth: vec![(Amplitude::Constant(1.0), Growth::edge(0.02))],
-        width: Amplitude::Constant(1.0),
-        thickness: Amplitude::Constant(1.0),
-    };
-    let far = End { position: Vector::new(0.0, 0.0, 9.5), turns: 0.25, ..end(Hold::Clamped) };
+    let far = End { position: Vector::new(0.0, 0.0, 9.5), turns: 0.25, ..End::new(Hold::Clamped) };
     let point =
         PointLoad { s: 4.0, force: Vector::new(2e-5, 1e-5, 0.0), moment: Vector::new(0.0, 1e-5, 1e-5) };
-    let law = Law::Relaxed(RibbonLaw::new(spec).unwrap());
-    let ends = [end(Hold::Clamped), far];
-    Problem::new(law, 10.0, ends, vec![point], line([1e-6, -2e-6, 1e-6])).unwrap()
+    let law = Law::Relaxed(
+        RibbonLaw::new(RibbonSpec::uniform(0.1, Growth::edge(0.02))).expect("a law for this growth"),
+    );
+    let ends = [End::new(Hold::Clamped), far];
+    Problem::new(law, 10.0, ends, vec![point], LineLoad::uniform([1e-6, -2e-6, 1e-6])).expect("a problem")
 }
 
 fn row(scene: &str, degree: usize, elements: usize, solution: &Solution) -> String {
     let length = solution.problem().length;
-    let here = solution.at(PLACE * length).unwrap();
+    let here = solution.at(PLACE * length).expect("a state");
     let (r, q, e) = (here.at.position / length, here.at.rotation, here.strain);
     let values = [r.x, r.y, r.z, q.w, q.i, q.j, q.k, e[0], e[1] * length, e[2] * length, e[3] * length];
     let values: Vec<String> = values.iter().map(|x| format!("{x:.16e}")).collect();
@@ -71,7 +50,8 @@ fn row(scene: &str, degree: usize, elements: usize, solution: &Solution) -> Stri
 fn guess(solution: &Solution) -> Guess {
     let length = solution.problem().length;
     let s: Vec<f64> = (0..=400).map(|i| length * f64::from(i) / 400.0).collect();
-    let (strains, states) = solution.many(&s).unwrap().iter().map(|here| (here.strain, here.at)).unzip();
+    let (strains, states) =
+        solution.many(&s).expect("states").iter().map(|here| (here.strain, here.at)).unzip();
     Guess { s, strains, states, has_wrench: true }
 }
 
@@ -84,14 +64,14 @@ fn main() {
     for (name, problem, counts) in meshes {
         let problem = Arc::new(problem);
         let settings = Settings { degree: 8, tolerance: 1e-13, ..Settings::default() };
-        let reference = Solution::of(Arc::clone(&problem), &settings, None).unwrap();
+        let reference = Solution::of(Arc::clone(&problem), &settings, None).expect("a state");
         assert!(reference.report.status.is_solved(), "{}", reference.report.reason);
         println!("{}", row(name, 8, 0, &reference));
         let guess = guess(&reference);
         for degree in 1..=8 {
             for &elements in &counts {
                 let settings = Settings { degree, first_elements: elements, adaptive: false, ..settings };
-                let solution = Solution::of(Arc::clone(&problem), &settings, Some(&guess)).unwrap();
+                let solution = Solution::of(Arc::clone(&problem), &settings, Some(&guess)).expect("a state");
                 if !matches!(solution.report.status, Status::Singular | Status::Diverged) {
                     println!("{}", row(name, degree, solution.nodes().len() - 1, &solution));
                 }

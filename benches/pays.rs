@@ -6,7 +6,7 @@ use std::hint::black_box;
 use std::sync::Arc;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use nalgebra::{Quaternion, Vector3};
+use nalgebra::Vector3;
 use ribbonrs::boundary::{
     End, Hold, Known, Law, Layout, LineLoad, Mesh, Path, Problem, Settings, Solution, System,
 };
@@ -40,14 +40,8 @@ fn along(coefficients: &[f64]) -> Amplitude {
 }
 
 fn ribbon(amplitude: Amplitude, growth: Growth) -> RibbonLaw {
-    let spec = RibbonSpec {
-        eta: ETA,
-        stiffness: PlaneStress::incompressible(),
-        form: Form::Auto,
-        growth: vec![(amplitude, growth)],
-        width: Amplitude::Constant(1.0),
-        thickness: Amplitude::Constant(1.0),
-    };
+    let spec =
+        RibbonSpec { growth: vec![(amplitude, growth)], ..RibbonSpec::uniform(ETA, Growth::default()) };
     RibbonLaw::new(spec).expect("a law for this growth")
 }
 
@@ -131,17 +125,8 @@ fn ribbons(c: &mut Criterion) {
 
 /// A ribbon without loads, clamped at its start, and free or clamped after some turns at its end.
 fn problem(law: RibbonLaw, hold: Hold, z: f64, turns: f64) -> Arc<Problem> {
-    let end = |hold, z, turns| End {
-        hold,
-        position: Vector3::new(0.0, 0.0, z),
-        rotation: Quaternion::new(1.0, 0.0, 0.0, 0.0),
-        turns,
-        force: Vector3::zeros(),
-        moment: Vector3::zeros(),
-    };
-    let none = || [0.0; 3].map(Amplitude::Constant);
-    let line = LineLoad { force: none(), moment: none() };
-    let ends = [end(Hold::Clamped, 0.0, 0.0), end(hold, z, turns)];
+    let end = End { position: Vector3::new(0.0, 0.0, z), turns, ..End::new(hold) };
+    let (ends, line) = ([End::new(Hold::Clamped), end], LineLoad::uniform([0.0; 3]));
     Arc::new(Problem::new(Law::Relaxed(law), LENGTH, ends, vec![], line).expect("a problem"))
 }
 
@@ -174,7 +159,7 @@ fn held(c: &mut Criterion) {
             b.iter(|| Solution::of(Arc::clone(&problem), &settings, None));
         });
         let mesh = Mesh::new(&problem, s.clone(), settings.degree).expect("a mesh");
-        let path = Path::new(&mesh, &Known::Natural(1.0)).expect("a shape");
+        let path = Path::new(&mesh, &Known::Straight(1.0)).expect("a shape");
         let targets = path.targets(&problem, 0.5);
         let mut system = System::with_layout(&mesh, layout).expect("a system");
         group.bench_function(format!("an iteration on 100 elements, {states} states"), |b| {

@@ -1,6 +1,7 @@
 //! The boundary-value solver against known answers, and its orders, works and failures.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use nalgebra::{Quaternion, Vector3};
 use ribbonrs::boundary::{
@@ -8,58 +9,34 @@ use ribbonrs::boundary::{
     Solution, Status, System, Targets,
 };
 use ribbonrs::growth::Growth;
-use ribbonrs::material::PlaneStress;
 use ribbonrs::piecewise::Piecewise;
-use ribbonrs::section::{Amplitude, Form, RibbonLaw, RibbonSpec, Strain};
+use ribbonrs::section::{Amplitude, RibbonLaw, RibbonSpec, Strain};
 
 type Vector = Vector3<f64>;
-
-fn end(hold: Hold) -> End {
-    End {
-        hold,
-        position: Vector::zeros(),
-        rotation: Quaternion::new(1.0, 0.0, 0.0, 0.0),
-        turns: 0.0,
-        force: Vector::zeros(),
-        moment: Vector::zeros(),
-    }
-}
-
-fn line(force: [f64; 3]) -> LineLoad {
-    LineLoad { force: force.map(Amplitude::Constant), moment: [0.0; 3].map(Amplitude::Constant) }
-}
 
 fn rod() -> Law {
     Law::Rod(Rod { compliance: Strain::new(0.0, 0.01, 1.0, 1.0), intrinsic: Strain::zeros() })
 }
 
-fn spec(growth: Growth) -> RibbonSpec {
-    RibbonSpec {
-        eta: 0.1,
-        stiffness: PlaneStress::incompressible(),
-        form: Form::Auto,
-        growth: vec![(Amplitude::Constant(1.0), growth)],
-        width: Amplitude::Constant(1.0),
-        thickness: Amplitude::Constant(1.0),
-    }
-}
-
 fn relaxed(growth: Growth) -> Law {
-    Law::Relaxed(RibbonLaw::new(spec(growth)).unwrap())
+    Law::Relaxed(RibbonLaw::new(RibbonSpec::uniform(0.1, growth)).unwrap())
 }
 
 fn cantilever(load: f64) -> Arc<Problem> {
-    let ends = [end(Hold::Clamped), End { force: Vector::new(load, 0.0, 0.0), ..end(Hold::Free) }];
-    Arc::new(Problem::new(rod(), 1.0, ends, vec![], line([0.0; 3])).unwrap())
+    let ends = [End::new(Hold::Clamped), End { force: Vector::new(load, 0.0, 0.0), ..End::new(Hold::Free) }];
+    Arc::new(Problem::new(rod(), 1.0, ends, vec![], LineLoad::uniform([0.0; 3])).unwrap())
 }
 
 /// Grown edges, clamped a quarter of a turn apart and shortened, with weight and a load in the middle.
 fn held(force: [f64; 3]) -> Arc<Problem> {
-    let far = End { position: Vector::new(0.0, 0.0, 9.5), turns: 0.25, ..end(Hold::Clamped) };
+    let far = End { position: Vector::new(0.0, 0.0, 9.5), turns: 0.25, ..End::new(Hold::Clamped) };
     let point =
         PointLoad { s: 4.0, force: Vector::new(2e-5, 1e-5, 0.0), moment: Vector::new(0.0, 1e-5, 1e-5) };
     let law = relaxed(Growth::edge(0.02));
-    Arc::new(Problem::new(law, 10.0, [end(Hold::Clamped), far], vec![point], line(force)).unwrap())
+    Arc::new(
+        Problem::new(law, 10.0, [End::new(Hold::Clamped), far], vec![point], LineLoad::uniform(force))
+            .unwrap(),
+    )
 }
 
 fn solve(problem: &Arc<Problem>, settings: &Settings) -> Solution {
@@ -142,10 +119,13 @@ fn layouts_agree() {
     for force in [[0.0; 3], [1e-6, -2e-6, 1e-6]] {
         let problem = held(force);
         let few = solve(&problem, &Settings { tolerance: 1e-11, ..Settings::default() });
-        let layout = Some(Layout::Moment);
-        let more = solve(&problem, &Settings { tolerance: 1e-11, layout, ..Settings::default() });
         let places: Vec<f64> = (0..=10).map(f64::from).collect();
-        assert!(difference(&few, &more, &places, 10.0) < 2e-11);
+        for layout in [Layout::Moment, Layout::Full] {
+            let settings = Settings { tolerance: 1e-11, layout: Some(layout), ..Settings::default() };
+            let more = solve(&problem, &settings);
+            assert_eq!(more.report.status, Status::Converged, "{layout:?} {force:?}");
+            assert!(difference(&few, &more, &places, 10.0) < 2e-11, "{layout:?} {force:?}");
+        }
     }
 }
 
@@ -171,10 +151,12 @@ fn a_stage_without_stiffness_is_solved_for() {
     let steps =
         Piecewise::from_legendre(vec![0.0, 1.0, 2.0], vec![vec![5.0 * eta2], vec![4.0 * eta2]]).unwrap();
     let growth = vec![(Amplitude::Along(steps), Growth::edge(1.0))];
-    let law = Law::Relaxed(RibbonLaw::new(RibbonSpec { growth, ..spec(Growth::default()) }).unwrap());
+    let law = Law::Relaxed(
+        RibbonLaw::new(RibbonSpec { growth, ..RibbonSpec::uniform(0.1, Growth::default()) }).unwrap(),
+    );
     let position = Vector::new(0.0, 0.0, 2.0 + 9.0 * eta2 / 3.0);
-    let ends = [end(Hold::Clamped), End { position, ..end(Hold::Clamped) }];
-    let problem = Problem::new(law, 2.0, ends, vec![], line([0.0; 3])).unwrap();
+    let ends = [End::new(Hold::Clamped), End { position, ..End::new(Hold::Clamped) }];
+    let problem = Problem::new(law, 2.0, ends, vec![], LineLoad::uniform([0.0; 3])).unwrap();
     let mesh = Mesh::new(&problem, vec![0.0, 1.0, 2.0], 1).unwrap();
     let mut system = System::new(&mesh).unwrap();
     let targets = Targets { ends, load: 1.0, offset: Vec::new() };
@@ -194,8 +176,9 @@ fn a_stage_without_stiffness_is_solved_for() {
 /// A ribbon that may spin about its pins has no isolated shape: that is told.
 #[test]
 fn what_is_not_held_is_singular() {
-    let far = End { position: Vector::new(0.0, 0.0, 1.0), ..end(Hold::Pinned) };
-    let problem = Problem::new(rod(), 1.0, [end(Hold::Pinned), far], vec![], line([0.0; 3])).unwrap();
+    let far = End { position: Vector::new(0.0, 0.0, 1.0), ..End::new(Hold::Pinned) };
+    let problem =
+        Problem::new(rod(), 1.0, [End::new(Hold::Pinned), far], vec![], LineLoad::uniform([0.0; 3])).unwrap();
     let solution = solve(&Arc::new(problem), &Settings::default());
     assert!(!solution.report.status.is_solved(), "{:?}", solution.report);
     assert!(!solution.report.reason.is_empty());
@@ -218,8 +201,8 @@ fn quaternions_do_not_drift() {
         compliance: Strain::new(0.1, 1.0, 1.0, 1.0),
         intrinsic: Strain::new(0.0, 0.0, 2.0 * std::f64::consts::PI * turns, 0.0),
     };
-    let ends = [end(Hold::Clamped), end(Hold::Free)];
-    let problem = Problem::new(Law::Rod(rod), 1.0, ends, vec![], line([0.0; 3])).unwrap();
+    let ends = [End::new(Hold::Clamped), End::new(Hold::Free)];
+    let problem = Problem::new(Law::Rod(rod), 1.0, ends, vec![], LineLoad::uniform([0.0; 3])).unwrap();
     let settings = Settings {
         first_elements: 10_000,
         adaptive: false,
@@ -233,4 +216,32 @@ fn quaternions_do_not_drift() {
     // Elements of 0.06 radians: their error is below the rounding of ten thousand.
     let tip = solution.at(1.0).unwrap().at;
     assert!(tip.position.norm() < 1e-12, "{}", tip.position);
+}
+
+/// Who asks to stop asks once, and whatever the solver is at then, it stops: on the way, between meshes, and where it
+/// disturbs what it found unstable.
+#[test]
+fn an_interrupt_is_not_lost() {
+    static ASKED: AtomicUsize = AtomicUsize::new(0);
+    static AT: AtomicUsize = AtomicUsize::new(0);
+    fn interrupted() -> bool {
+        ASKED.fetch_add(1, Ordering::Relaxed) == AT.load(Ordering::Relaxed)
+    }
+    let far = End { position: Vector::new(0.0, 0.0, 9.0), turns: 0.5, ..End::new(Hold::Clamped) };
+    let ends = [End::new(Hold::Clamped), far];
+    let law = relaxed(Growth::edge(0.02));
+    let problem = Arc::new(Problem::new(law, 10.0, ends, vec![], LineLoad::uniform([0.0; 3])).unwrap());
+    let settings = Settings { interrupted: Some(interrupted), ..Settings::default() };
+    let status = |at| {
+        ASKED.store(0, Ordering::Relaxed);
+        AT.store(at, Ordering::Relaxed);
+        solve(&problem, &settings).report.status
+    };
+    assert_eq!(status(usize::MAX), Status::Converged);
+    let questions = ASKED.load(Ordering::Relaxed);
+    // The way, the meshes of the unstable state, a disturbance and its meshes.
+    assert!(questions > 8, "{questions}");
+    for at in 0..questions {
+        assert_eq!(status(at), Status::Interrupted, "{at} of {questions}");
+    }
 }

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use nalgebra::{Quaternion, Vector3};
+use nalgebra::Vector3;
 use ribbonrs::boundary::{
     End, Hold, Known, Law, Layout, LineLoad, Mesh, Path, Problem, Settings, Solution, System,
 };
@@ -93,14 +93,7 @@ fn value_and_gradient_alone() {
 }
 
 fn ribbon(growth: Vec<(Amplitude, Growth)>) -> RibbonLaw {
-    let spec = RibbonSpec {
-        eta: ETA,
-        stiffness: PlaneStress::incompressible(),
-        form: Form::Auto,
-        growth,
-        width: Amplitude::Constant(1.0),
-        thickness: Amplitude::Constant(1.0),
-    };
+    let spec = RibbonSpec { growth, ..RibbonSpec::uniform(ETA, Growth::default()) };
     RibbonLaw::new(spec).unwrap()
 }
 
@@ -135,17 +128,8 @@ fn modes_are_shared_along_the_ribbon() {
 
 /// A ribbon without loads, clamped at its start, and free or clamped after some turns at its end.
 fn problem(law: RibbonLaw, hold: Hold, z: f64, turns: f64) -> Arc<Problem> {
-    let end = |hold, z, turns| End {
-        hold,
-        position: Vector3::new(0.0, 0.0, z),
-        rotation: Quaternion::new(1.0, 0.0, 0.0, 0.0),
-        turns,
-        force: Vector3::zeros(),
-        moment: Vector3::zeros(),
-    };
-    let none = || [0.0; 3].map(Amplitude::Constant);
-    let line = LineLoad { force: none(), moment: none() };
-    let ends = [end(Hold::Clamped, 0.0, 0.0), end(hold, z, turns)];
+    let end = End { position: Vector3::new(0.0, 0.0, z), turns, ..End::new(hold) };
+    let (ends, line) = ([End::new(Hold::Clamped), end], LineLoad::uniform([0.0; 3]));
     Arc::new(Problem::new(Law::Relaxed(law), LENGTH, ends, vec![], line).unwrap())
 }
 
@@ -200,7 +184,7 @@ fn chain_and_sparse_matrix() {
     let problem = problem(law, Hold::Clamped, 9.0, 0.5);
     let nodes = (0..=100).map(|i| LENGTH * f64::from(i) / 100.0).collect();
     let mesh = Mesh::new(&problem, nodes, Settings::default().degree).unwrap();
-    let path = Path::new(&mesh, &Known::Natural(1.0)).unwrap();
+    let path = Path::new(&mesh, &Known::Straight(1.0)).unwrap();
     let targets = path.targets(&problem, 0.5);
     let mut system = System::new(&mesh).unwrap();
     system.linearise(&path.x, &targets).unwrap();

@@ -20,7 +20,7 @@
 
 use nalgebra::DMatrix;
 
-use super::dense::{backward, eliminate, forward};
+use super::dense::{backward, eliminate, forward, least_of};
 
 /// Singular values below this part of the next are those of gliding and rolling.
 const GLIDING: f64 = 1e-2;
@@ -132,8 +132,7 @@ impl Chain {
         let swap = self.swaps.len();
         self.swaps.resize(swap + n, 0);
         let pivot = eliminate(panel, stride, n, &mut self.swaps[swap..]);
-        // Not `min`, which would drop NaN.
-        self.pivot = if pivot >= self.pivot { self.pivot } else { pivot };
+        self.pivot = least_of(self.pivot, pivot);
         for (row, carried) in
             panel[n * stride..].chunks_exact(stride).zip(self.carried.chunks_exact_mut(n + m))
         {
@@ -173,7 +172,7 @@ impl Chain {
         }
         let mut swaps = vec![0; size];
         let pivot = eliminate(&mut block, size, size, &mut swaps);
-        self.pivot = if pivot >= self.pivot { self.pivot } else { pivot };
+        self.pivot = least_of(self.pivot, pivot);
         self.last = Last { size, block, swaps };
     }
 

@@ -73,18 +73,12 @@ pub fn residual(mesh: &Mesh<'_>, x: &Iterate) -> Result<f64, InvalidInput> {
             worst.take(strain_size(&law, length));
         }
         let next = &x.nodes[i + 1];
-        let tip = |from: usize| -> (Vector, Quaternion<f64>) {
-            let (mut r, mut q) = (at.position, at.rotation);
-            for j in 0..s {
-                let w = h * mesh.gauss.weights[j];
-                let (e, stage) = (&strains[j], rotations[from + j]);
-                r += (stage * Quaternion::new(0.0, 0.0, 0.0, 1.0) * stage.conjugate()).imag()
-                    * (w * (1.0 + e[0]));
-                q += stage * Quaternion::new(0.0, e[1], e[2], e[3]) * (0.5 * w);
-            }
-            (r, q)
-        };
-        let (r, q) = tip(1);
+        let (mut r, mut q) = (at.position, at.rotation);
+        for ((e, stage), weight) in strains.iter().zip(&rotations[1..]).zip(&mesh.gauss.weights) {
+            let tangent = (stage * Quaternion::new(0.0, 0.0, 0.0, 1.0) * stage.conjugate()).imag();
+            r += tangent * (h * weight * (1.0 + e[0]));
+            q += stage * Quaternion::new(0.0, e[1], e[2], e[3]) * (0.5 * h * weight);
+        }
         worst.take((r - next.position).norm() / length);
         worst.take((q - next.rotation).norm().min((q + next.rotation).norm()));
         let (force, moment) = mesh.points[i + 1].unwrap_or((Vector::zeros(), Vector::zeros()));
@@ -116,8 +110,10 @@ struct Worst(f64);
 
 impl Worst {
     fn take(&mut self, value: f64) {
-        // NaN stays.
-        self.0 = if value <= self.0 { self.0 } else { value };
+        // Once not a number, it stays so: no later value may hide it.
+        if !(self.0.is_nan() || value <= self.0) {
+            self.0 = value;
+        }
     }
 }
 
@@ -149,5 +145,20 @@ fn held(end: &End, at: &At, outward: f64, force: f64, moment: f64, length: f64, 
             worst.take(turned);
             worst.take(axis.dot(&n).abs() / force);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_a_number_stays() {
+        let mut worst = Worst(0.0);
+        [1.0, f64::NAN, 2.0, 0.5].into_iter().for_each(|value| worst.take(value));
+        assert!(worst.0.is_nan());
+        let mut worst = Worst(0.0);
+        [1.0, 2.0, 0.5].into_iter().for_each(|value| worst.take(value));
+        assert_eq!(worst.0, 2.0);
     }
 }

@@ -19,8 +19,7 @@ pub fn eliminate(block: &mut [f64], stride: usize, pivots: usize, swaps: &mut [u
         }
         let (head, tail) = block.split_at_mut((k + 1) * stride);
         let row = &head[k * stride..];
-        // A zero or NaN pivot makes `least` zero or NaN, which the caller refuses.
-        least = if row[k].abs() >= least * scale { least } else { row[k].abs() / scale };
+        least = least_of(least, row[k].abs() / scale);
         if row[k] == 0.0 {
             return 0.0;
         }
@@ -36,6 +35,12 @@ pub fn eliminate(block: &mut [f64], stride: usize, pivots: usize, swaps: &mut [u
         }
     }
     least
+}
+
+/// The lesser of two, or what is not a number, which callers refuse: `min` would drop it.
+#[must_use]
+pub fn least_of(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a <= b { a } else { b }
 }
 
 /// Does to a right-hand side, one number a row, what [`eliminate`] did to the block.
@@ -86,7 +91,10 @@ mod tests {
         let mut block = [1.0, 2.0, 2.0, 4.0 * (1.0 + 1e-16)];
         assert!(eliminate(&mut block, 2, 2, &mut [0; 2]) < 1e-15);
         assert_eq!(eliminate(&mut [0.0; 4], 2, 2, &mut [0; 2]), 0.0);
-        let pivot = eliminate(&mut [f64::NAN, 1.0, 1.0, 1.0], 2, 2, &mut [0; 2]);
-        assert!(pivot.is_nan() || pivot < 1e-15);
+        assert!(eliminate(&mut [f64::NAN, 1.0, 1.0, 1.0], 2, 2, &mut [0; 2]).is_nan());
+        for (a, b) in [(f64::NAN, 1.0), (1.0, f64::NAN)] {
+            assert!(least_of(a, b).is_nan());
+        }
+        assert_eq!(least_of(1.0, 2.0), least_of(2.0, 1.0));
     }
 }

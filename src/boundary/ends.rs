@@ -38,6 +38,21 @@ pub struct End {
     pub moment: Vector,
 }
 
+impl End {
+    /// An end at the origin, in the orientation of the fixed basis, without twist and without load.
+    #[must_use]
+    pub fn new(hold: Hold) -> Self {
+        Self {
+            hold,
+            position: Vector::zeros(),
+            rotation: Quaternion::new(1.0, 0.0, 0.0, 0.0),
+            turns: 0.0,
+            force: Vector::zeros(),
+            moment: Vector::zeros(),
+        }
+    }
+}
+
 impl Hold {
     /// Whether the position is held, but for sliding.
     #[must_use]

@@ -5,9 +5,11 @@ use std::f64::consts::PI;
 use super::iterate::Iterate;
 use super::known::{Guess, Known};
 use super::mesh::Mesh;
+use super::newton::Failed;
 use super::path::Stride;
 use super::problem::Problem;
-use super::solve::{Settings, Solved, Spent, adapted, first_turn, followed, goal};
+use super::report::Status;
+use super::solve::{Settings, Solved, Spent, adapted, first_turn, followed, goal, unfinished};
 use super::step::Stepper;
 use super::system::System;
 use crate::InvalidInput;
@@ -34,8 +36,15 @@ pub fn fallen(
         let stride =
             Stride { step: 1.0, most: 1.0, careful: false, again: false, interrupted: settings.interrupted };
         let (mesh, reached) = followed(settings, mesh, &known, stride, spent)?;
+        // Who asks to stop asks once.
+        if reached.failure == Some(Failed::Interrupted) {
+            return Ok(unfinished(mesh, reached, spent));
+        }
         if reached.failure.is_none() {
             let solved = adapted(settings, mesh, reached.x, spent)?;
+            if solved.report.status == Status::Interrupted {
+                return Ok(solved);
+            }
             if solved.report.status.is_solved() && !is_unstable(problem, settings, &solved)? {
                 return Ok(solved);
             }

@@ -166,12 +166,9 @@ impl Correction {
     }
 }
 
-/// Makes the constants of an iterate follow their values at the start: they jump at point loads and, if no force is
-/// distributed, by distributed couples. `load` is the factor of the loads.
+/// Makes what is known but for its value at the start follow from that: the force everywhere, whatever the layout, for
+/// dead loads are given; and the moment about the origin, if no force is distributed. `load` is the factor of the loads.
 pub fn settle(mesh: &Mesh<'_>, layout: Layout, x: &mut Iterate, load: f64) {
-    if layout == Layout::Full {
-        return;
-    }
     for i in 0..mesh.elements() {
         let (mut force, mut about_origin) = (x.nodes[i].force, x.nodes[i].about_origin);
         let h = mesh.length(i) * load;

@@ -158,6 +158,7 @@ const SLIGHT_IF_CURVED: f64 = 0.02;
 
 /// Rotation over the whole ribbon that an imperfection of size 1 is of.
 const IMPERFECTION: f64 = 0.2;
+
 /// The shape at rest of these strains with an imperfection of this size.
 fn shape_at_rest(
     mesh: &Mesh<'_>,

@@ -10,7 +10,7 @@
 //! | file | role |
 //! |---|---|
 //! | `problem`, `ends`, `law` | what is given |
-//! | `gauss`, `element` | one element: stages, linearisation, elimination of its strains |
+//! | `gauss`, `element`, `eliminated` | one element: stages, linearisation, elimination of its strains |
 //! | `transfer`, `chain`, `dense` | elimination of the nodes |
 //! | `sparse` | the same without elimination, by faer |
 //! | `mesh`, `iterate`, `system` | all elements: unknowns, residual, Jacobian |
@@ -26,6 +26,7 @@ mod chain;
 mod check;
 mod dense;
 mod element;
+mod eliminated;
 mod ends;
 mod fallen;
 mod gauss;

@@ -29,6 +29,14 @@ pub struct LineLoad {
     pub moment: [Amplitude; 3],
 }
 
+impl LineLoad {
+    /// The same force everywhere, and no couple.
+    #[must_use]
+    pub fn uniform(force: [f64; 3]) -> Self {
+        Self { force: force.map(Amplitude::Constant), moment: [0.0; 3].map(Amplitude::Constant) }
+    }
+}
+
 /// A ribbon that is held and loaded.
 ///
 /// ```text

@@ -74,24 +74,15 @@ impl Solution {
     /// Where a section is refused.
     ///
     /// # Example
-    /// A clamped rod under a dead force at its tip, bent through more than a right angle (Mattiasson 1981).
+    /// A clamped rod under a dead force at its tip, bent through 82 degrees (Mattiasson 1981).
     /// ```
     /// use std::sync::Arc;
-    /// use nalgebra::{Quaternion, Vector3};
+    /// use nalgebra::Vector3;
     /// use ribbonrs::boundary::{End, Hold, Law, LineLoad, Problem, Rod, Settings, Solution};
-    /// use ribbonrs::section::{Amplitude, Strain};
-    /// let end = |hold, force| End {
-    ///     hold,
-    ///     position: Vector3::zeros(),
-    ///     rotation: Quaternion::new(1.0, 0.0, 0.0, 0.0),
-    ///     turns: 0.0,
-    ///     force,
-    ///     moment: Vector3::zeros(),
-    /// };
+    /// use ribbonrs::section::Strain;
     /// let rod = Rod { compliance: Strain::new(0.0, 1.0, 1.0, 1.0), intrinsic: Strain::zeros() };
-    /// let ends = [end(Hold::Clamped, Vector3::zeros()), end(Hold::Free, Vector3::new(10.0, 0.0, 0.0))];
-    /// let none = || [0.0; 3].map(Amplitude::Constant);
-    /// let line = LineLoad { force: none(), moment: none() };
+    /// let tip = End { force: Vector3::new(10.0, 0.0, 0.0), ..End::new(Hold::Free) };
+    /// let (ends, line) = ([End::new(Hold::Clamped), tip], LineLoad::uniform([0.0; 3]));
     /// let problem = Arc::new(Problem::new(Law::Rod(rod), 1.0, ends, vec![], line)?);
     /// let solution = Solution::of(problem, &Settings::default(), None)?;
     /// let tip = solution.at(1.0)?.at.position;

@@ -262,7 +262,8 @@ pub fn first_turn(problem: &Problem, known: &Known<'_>) -> Result<f64, InvalidIn
     Ok((0..=16).map(rate).fold(0.0, f64::max) * problem.length)
 }
 
-fn unfinished(mesh: Mesh<'_>, reached: Reached, spent: &Spent) -> Solved {
+/// The state that was reached, and why no further.
+pub fn unfinished(mesh: Mesh<'_>, reached: Reached, spent: &Spent) -> Solved {
     use super::system::Failure;
     let failure = reached.failure.as_ref();
     let status = match failure {

@@ -7,7 +7,8 @@
 
 use nalgebra::Vector3;
 
-use super::element::{Eliminated, Entry, Exit, Span, Stages};
+use super::element::{Entry, Exit, Span, Stages};
+use super::eliminated::Eliminated;
 use super::ends::At;
 use super::gauss::{Gauss, MAX_DEGREE};
 use super::law::Response;

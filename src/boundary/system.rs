@@ -5,7 +5,8 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::chain::{Border, Chain};
-use super::element::{Change, Eliminated, Entry, Exit, Span, Stages};
+use super::element::{Entry, Exit, Span, Stages};
+use super::eliminated::{Change, Eliminated};
 use super::ends::{Condition, End, Units, conditions, half_angle};
 use super::iterate::{Correction, Iterate, Layout, settle};
 use super::mesh::Mesh;
@@ -141,12 +142,14 @@ impl<'m, 'p> System<'m, 'p> {
         let before = std::mem::take(&mut self.residual);
         self.settle(&mut settled, targets[1].load);
         self.evaluate(&settled, &targets[1])?;
-        let less = |after: &mut f64, before: f64| *after = (*after - before) / step;
         let r = &mut self.residual;
-        r.strains.iter_mut().zip(&before.strains).for_each(|(a, b)| *a = (*a - b) / step);
+        r.strains
+            .iter_mut()
+            .zip(&before.strains)
+            .for_each(|(after, before)| *after = (*after - before) / step);
         let gaps = r.gaps.iter_mut().flatten().zip(before.gaps.iter().flatten());
         let ends = r.start.iter_mut().zip(&before.start).chain(r.end.iter_mut().zip(&before.end));
-        gaps.chain(ends).for_each(|(a, b)| less(a, *b));
+        gaps.chain(ends).for_each(|(after, before)| *after = (*after - before) / step);
         Ok(())
     }
 

@@ -16,7 +16,8 @@
 
 use nalgebra::{Matrix3, Quaternion, SMatrix, Vector3};
 
-use super::element::{Change, Exit};
+use super::element::Exit;
+use super::eliminated::Change;
 use super::ends::{Units, half_angle};
 
 type Vector = Vector3<f64>;

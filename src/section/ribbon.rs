@@ -70,6 +70,21 @@ pub struct RibbonSpec {
     pub thickness: Amplitude,
 }
 
+impl RibbonSpec {
+    /// An incompressible ribbon of thickness ratio `eta` that grows the same all along.
+    #[must_use]
+    pub fn uniform(eta: f64, growth: Growth) -> Self {
+        Self {
+            eta,
+            stiffness: PlaneStress::incompressible(),
+            form: Form::Auto,
+            growth: vec![(Amplitude::Constant(1.0), growth)],
+            width: Amplitude::Constant(1.0),
+            thickness: Amplitude::Constant(1.0),
+        }
+    }
+}
+
 /// The law of every section of a ribbon.
 #[derive(Debug)]
 pub struct RibbonLaw {

@@ -6,8 +6,7 @@ use crate::boundary::iterate::at_rest;
 use crate::boundary::law::Law;
 use crate::boundary::problem::{LineLoad, PointLoad, Problem};
 use crate::growth::Growth;
-use crate::material::PlaneStress;
-use crate::section::{Amplitude, Form, RibbonLaw, RibbonSpec};
+use crate::section::{Amplitude, RibbonLaw, RibbonSpec};
 use nalgebra::Quaternion;
 
 /// Reproducible numbers in [-1, 1].
@@ -32,14 +31,8 @@ impl Numbers {
 
 /// A problem with every kind of load and these ends.
 fn problem(holds: [Hold; 2], force: bool, numbers: &mut Numbers) -> Problem {
-    let law = RibbonLaw::new(RibbonSpec {
-        eta: 0.1,
-        stiffness: PlaneStress::incompressible(),
-        form: Form::Auto,
-        growth: vec![(Amplitude::Constant(1.0), Growth::edge(0.06) + Growth::chiral(0.04))],
-        width: Amplitude::Constant(1.0),
-        thickness: Amplitude::Constant(1.0),
-    });
+    let growth = Growth::edge(0.06) + Growth::chiral(0.04);
+    let law = RibbonLaw::new(RibbonSpec::uniform(0.1, growth));
     let ends = holds.map(|hold| End {
         hold,
         position: numbers.vector(1.0),

@@ -66,7 +66,7 @@ fn iteration(c: &mut Criterion) {
         let path = Path::new(&mesh, &Known::Straight(1.0)).expect("a shape");
         let targets = path.targets(&problem, 0.5);
         for (states, layout) in [(7, Layout::Constant), (10, Layout::Moment), (13, Layout::Full)] {
-            let mut system = System::with_layout(&mesh, layout).expect("a system");
+            let mut system = System::with_layout(mesh.clone(), layout).expect("a system");
             let name = format!("iteration, 100 elements, degree {degree}, {states} states");
             c.bench_function(&name, |b| {
                 b.iter(|| {

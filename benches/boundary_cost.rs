@@ -4,6 +4,7 @@
 //! not measured. The scene is a ribbon with grown edges, clamped half a turn apart and shortened.
 
 use std::hint::black_box;
+use std::sync::Arc;
 use std::time::Instant;
 
 use nalgebra::{DMatrix, Vector3};
@@ -32,12 +33,12 @@ fn median(repeats: usize, mut run: impl FnMut()) -> f64 {
 }
 
 /// Seconds of a linearisation and a correction.
-fn iteration(problem: &Problem, elements: usize, degree: usize, layout: Layout, repeats: usize) -> f64 {
+fn iteration(problem: &Arc<Problem>, elements: usize, degree: usize, layout: Layout, repeats: usize) -> f64 {
     let nodes = (0..=elements).map(|i| 10.0 * i as f64 / elements as f64).collect();
     let mesh = Mesh::new(problem, nodes, degree).expect("a mesh");
     let path = Path::new(&mesh, &Known::Straight(1.0)).expect("a shape");
     let targets: Targets = path.targets(problem, 0.5);
-    let mut system = System::with_layout(&mesh, layout).expect("a system");
+    let mut system = System::with_layout(mesh.clone(), layout).expect("a system");
     median(repeats, || {
         system.linearise(&path.x, &targets).expect("a regular matrix");
         black_box(system.correction());

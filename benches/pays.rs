@@ -161,7 +161,7 @@ fn held(c: &mut Criterion) {
         let mesh = Mesh::new(&problem, s.clone(), settings.degree).expect("a mesh");
         let path = Path::new(&mesh, &Known::Straight(1.0)).expect("a shape");
         let targets = path.targets(&problem, 0.5);
-        let mut system = System::with_layout(&mesh, layout).expect("a system");
+        let mut system = System::with_layout(mesh.clone(), layout).expect("a system");
         group.bench_function(format!("an iteration on 100 elements, {states} states"), |b| {
             b.iter(|| {
                 system.linearise(&path.x, &targets).expect("a regular matrix");

@@ -186,7 +186,7 @@ fn chain_and_sparse_matrix() {
     let mesh = Mesh::new(&problem, nodes, Settings::default().degree).unwrap();
     let path = Path::new(&mesh, &Known::Straight(1.0)).unwrap();
     let targets = path.targets(&problem, 0.5);
-    let mut system = System::new(&mesh).unwrap();
+    let mut system = System::new(mesh.clone()).unwrap();
     system.linearise(&path.x, &targets).unwrap();
     let chain = system.correction();
     system.linearise_sparsely(&path.x, &targets).unwrap();

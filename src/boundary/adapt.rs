@@ -31,13 +31,9 @@ const UNKNOWN: f64 = 1e-2;
 ///
 /// # Errors
 /// Where a section is refused.
-pub fn estimate(
-    system: &mut System<'_, '_>,
-    x: &Iterate,
-    offset: &[Strain],
-) -> Result<Estimate, InvalidInput> {
-    let mesh = system.mesh;
-    let mut stepper = Stepper::new(mesh.problem, mesh.gauss)?;
+pub fn estimate(system: &mut System, x: &Iterate, offset: &[Strain]) -> Result<Estimate, InvalidInput> {
+    let mesh = &system.mesh;
+    let mut stepper = Stepper::new(&mesh.problem, mesh.gauss)?;
     let degree = mesh.gauss.degree;
     let factor = 1.0 / (1.0 - 0.25_f64.powi(mesh.gauss.degree as i32));
     let mut gaps = Vec::with_capacity(mesh.elements());
@@ -71,7 +67,7 @@ pub fn estimate(
         rates.push((at.force.norm() * compliance.rows(1, 3).max()).sqrt());
     }
     let correction = system.correction_for(gaps);
-    let mut error = largest(&correction, mesh.problem);
+    let mut error = largest(&correction, &system.mesh.problem);
     if sizes.contains(&UNKNOWN) {
         error = error.max(UNKNOWN);
     }
@@ -117,7 +113,7 @@ const LEAST_DENSITY: f64 = 0.1;
 
 /// Nodes of a mesh on which all elements have the same defect, small enough for the error to meet the tolerance.
 #[must_use]
-pub fn refined(mesh: &Mesh<'_>, estimate: &Estimate, tolerance: f64) -> Vec<f64> {
+pub fn refined(mesh: &Mesh, estimate: &Estimate, tolerance: f64) -> Vec<f64> {
     let order = 2.0 * mesh.gauss.degree as f64;
     let count = mesh.elements() as f64;
     let shares: Vec<f64> = estimate.defects.iter().map(|d| d.max(1e-300).powf(1.0 / (order + 1.0))).collect();
@@ -161,8 +157,8 @@ pub fn refined(mesh: &Mesh<'_>, estimate: &Estimate, tolerance: f64) -> Vec<f64>
 ///
 /// # Errors
 /// Where a section is refused.
-pub fn transferred(x: &Iterate, from: &Mesh<'_>, to: &Mesh<'_>) -> Result<Iterate, InvalidInput> {
-    let mut stepper = Stepper::new(from.problem, from.gauss)?;
+pub fn transferred(x: &Iterate, from: &Mesh, to: &Mesh) -> Result<Iterate, InvalidInput> {
+    let mut stepper = Stepper::new(&from.problem, from.gauss)?;
     let mut nodes = Vec::with_capacity(to.nodes.len());
     for &s in &to.nodes {
         let i = element(from, s);
@@ -179,7 +175,7 @@ pub fn transferred(x: &Iterate, from: &Mesh<'_>, to: &Mesh<'_>) -> Result<Iterat
 
 /// Strains at the stages of another mesh, by the polynomials through those of the first.
 #[must_use]
-pub fn transferred_strains(strains: &[Strain], from: &Mesh<'_>, to: &Mesh<'_>) -> Vec<Strain> {
+pub fn transferred_strains(strains: &[Strain], from: &Mesh, to: &Mesh) -> Vec<Strain> {
     let degree = from.gauss.degree;
     let places = (0..to.elements()).flat_map(|i| to.places(i));
     let at = |s: f64| {
@@ -191,6 +187,6 @@ pub fn transferred_strains(strains: &[Strain], from: &Mesh<'_>, to: &Mesh<'_>) -
 }
 
 /// The element in which `s` is, the one to the right of a node.
-fn element(mesh: &Mesh<'_>, s: f64) -> usize {
+fn element(mesh: &Mesh, s: f64) -> usize {
     mesh.nodes.partition_point(|&node| node <= s).clamp(1, mesh.elements()) - 1
 }

@@ -10,6 +10,8 @@
 
 #![expect(clippy::neg_cmp_op_on_partial_ord, reason = "what is not a number fails every test")]
 
+use std::sync::Arc;
+
 use super::iterate::{Correction, Iterate};
 use super::path::{LARGEST_STEP_TURN, Path, largest_turn};
 use super::system::{Failure, System};
@@ -39,15 +41,15 @@ impl Point {
     /// Where the equations are singular, as they are at a bifurcation, or a section is refused.
     pub fn new(
         path: &Path,
-        system: &mut System<'_, '_>,
+        system: &mut System,
         x: Iterate,
         t: f64,
         before: Option<&Self>,
     ) -> Result<Self, Failure> {
-        system.linearise(&x, &path.targets(system.mesh.problem, t))?;
+        system.linearise(&x, &path.targets(&system.mesh.problem, t))?;
         let slope = slope(path, system, &x, t)?;
-        let length = slope.norm(system.mesh).hypot(1.0);
-        let forward = before.is_none_or(|b| b.along.dot(&slope, system.mesh) + b.ahead >= 0.0);
+        let length = slope.norm(&system.mesh).hypot(1.0);
+        let forward = before.is_none_or(|b| b.along.dot(&slope, &system.mesh) + b.ahead >= 0.0);
         let scale = if forward { 1.0 / length } else { -1.0 / length };
         let along = slope.scaled(scale);
         Ok(Self { x, t, along, ahead: scale })
@@ -61,25 +63,25 @@ impl Point {
 
     /// The unknowns where the tangent reaches `t`.
     #[must_use]
-    pub fn extrapolated(&self, t: f64, system: &System<'_, '_>) -> Iterate {
+    pub fn extrapolated(&self, t: f64, system: &System) -> Iterate {
         self.x.moved(&self.along, (t - self.t) / self.ahead, &system.units)
     }
 
     /// The next point, a step of `length` away, and the number of corrections; `None` if there is none near.
-    pub fn next(&self, path: &Path, system: &mut System<'_, '_>, length: f64) -> Option<(Self, usize)> {
-        let problem = system.mesh.problem;
+    pub fn next(&self, path: &Path, system: &mut System, length: f64) -> Option<(Self, usize)> {
+        let problem = Arc::clone(&system.mesh.problem);
         let mut x = self.x.moved(&self.along, length, &system.units);
         let mut t = self.t + length * self.ahead;
         let mut before = f64::INFINITY;
         for iteration in 1..=ITERATIONS {
-            let targets = path.targets(problem, t);
+            let targets = path.targets(&problem, t);
             system.settle(&mut x, targets.load);
             system.linearise(&x, &targets).ok()?;
             let v = system.correction();
             let w = slope(path, system, &x, t).ok()?;
-            let dt = -self.along.dot(&v, system.mesh) / (self.along.dot(&w, system.mesh) + self.ahead);
+            let dt = -self.along.dot(&v, &system.mesh) / (self.along.dot(&w, &system.mesh) + self.ahead);
             let correction = v.plus(dt, &w);
-            let size = correction.norm(system.mesh).hypot(dt);
+            let size = correction.norm(&system.mesh).hypot(dt);
             // NaN is refused, too.
             if !(size < 2.0 * before.min(length)) {
                 return None;
@@ -88,7 +90,7 @@ impl Point {
             t += dt;
             before = size;
             if size <= TOLERANCE {
-                system.settle(&mut x, path.targets(problem, t).load);
+                system.settle(&mut x, path.targets(&problem, t).load);
                 if largest_turn(&self.x, &x) > LARGEST_STEP_TURN {
                     return None;
                 }
@@ -100,9 +102,9 @@ impl Point {
 }
 
 /// `dx/dt` at fixed residual, by the factors at `x`.
-fn slope(path: &Path, system: &mut System<'_, '_>, x: &Iterate, t: f64) -> Result<Correction, Failure> {
-    let problem = system.mesh.problem;
-    let ends = [t - DIFFERENCE, t + DIFFERENCE].map(|t| path.targets(problem, t));
+fn slope(path: &Path, system: &mut System, x: &Iterate, t: f64) -> Result<Correction, Failure> {
+    let problem = Arc::clone(&system.mesh.problem);
+    let ends = [t - DIFFERENCE, t + DIFFERENCE].map(|t| path.targets(&problem, t));
     system.difference(x, &ends, 2.0 * DIFFERENCE)?;
     Ok(system.correction())
 }

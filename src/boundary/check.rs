@@ -20,8 +20,8 @@ type Vector = Vector3<f64>;
 ///
 /// # Errors
 /// Where a section is refused.
-pub fn residual(mesh: &Mesh<'_>, x: &Iterate) -> Result<f64, InvalidInput> {
-    let problem = mesh.problem;
+pub fn residual(mesh: &Mesh, x: &Iterate) -> Result<f64, InvalidInput> {
+    let problem = &mesh.problem;
     let length = problem.length;
     let units = problem.units()?;
     let mut stages = Box::<Stages>::default();
@@ -99,7 +99,7 @@ pub fn residual(mesh: &Mesh<'_>, x: &Iterate) -> Result<f64, InvalidInput> {
 ///
 /// # Errors
 /// Where a section is refused.
-pub fn rounding(mesh: &Mesh<'_>, x: &Iterate) -> Result<f64, InvalidInput> {
+pub fn rounding(mesh: &Mesh, x: &Iterate) -> Result<f64, InvalidInput> {
     let compliance = mesh.problem.law.at(0.0)?.compliance;
     let softest = compliance.rows(1, 3).max() * mesh.problem.length;
     let size = |at: &At| at.about_origin.norm() + at.position.norm() * at.force.norm();

@@ -56,7 +56,7 @@ pub struct Span<'a> {
     /// Length.
     pub length: f64,
     /// The law at the stages; one for all if the ribbon is uniform.
-    pub responses: &'a [Response<'a>],
+    pub responses: &'a [Response],
     /// Strains by which the law is violated on purpose, on the way to a solution; none if empty.
     pub offset: &'a [Strain],
     /// Distributed force and couple at the stages; none if empty.
@@ -64,7 +64,7 @@ pub struct Span<'a> {
 }
 
 impl<'a> Span<'a> {
-    fn response(&self, stage: usize) -> &Response<'a> {
+    fn response(&self, stage: usize) -> &Response {
         &self.responses[if self.responses.len() == 1 { 0 } else { stage }]
     }
 }

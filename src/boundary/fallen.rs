@@ -1,6 +1,7 @@
 //! From an unstable state to a stable one.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use super::iterate::Iterate;
 use super::known::{Guess, Known};
@@ -18,7 +19,7 @@ use crate::section::Strain;
 /// The stable state that an unstable one falls into when it is disturbed, if one of some disturbances leads to one;
 /// else the unstable one. All is to cost little.
 pub fn fallen(
-    problem: &Problem,
+    problem: &Arc<Problem>,
     settings: &Settings,
     unstable: Solved,
     spent: &mut Spent,
@@ -85,18 +86,18 @@ const DISTURBANCES: [Disturbance; 8] = [
 ];
 
 /// The shape of the disturbed strains, from the start.
-fn disturbed(mesh: &Mesh<'_>, x: &Iterate, disturbance: &Disturbance) -> Result<Guess, InvalidInput> {
+fn disturbed(mesh: &Mesh, x: &Iterate, disturbance: &Disturbance) -> Result<Guess, InvalidInput> {
     let length = mesh.problem.length;
     let size = |waves: f64| waves.signum() * disturbance.size / length * f64::from(u8::from(waves != 0.0));
     let wave = |s: f64, waves: f64| size(waves) * (waves * PI * s / length).cos();
     let twisted = Known::Twisted(0.0);
-    let straight = twisted.strains(mesh.problem)?;
+    let straight = twisted.strains(&mesh.problem)?;
     let strain = |i: usize, y: f64| {
         let s = mesh.nodes[i] + y * mesh.length(i);
         let base = if disturbance.of_straight { straight(s) } else { x.strain(mesh, i, y) };
         base + Strain::new(0.0, 0.0, wave(s, disturbance.bend), wave(s, disturbance.twist))
     };
-    let mut stepper = Stepper::new(mesh.problem, mesh.gauss)?;
+    let mut stepper = Stepper::new(&mesh.problem, mesh.gauss)?;
     let (mut s, mut strains, mut states) = (vec![0.0], vec![strain(0, 0.0)], vec![x.nodes[0]]);
     for i in 0..mesh.elements() {
         // Between the nodes, too, for the strains of a guess are joined by lines.
@@ -119,7 +120,11 @@ fn disturbed(mesh: &Mesh<'_>, x: &Iterate, disturbance: &Disturbance) -> Result<
 const PARTS: usize = 4;
 
 /// Whether a solution is known to be unstable, by a section or under the end conditions.
-pub fn is_unstable(problem: &Problem, settings: &Settings, solved: &Solved) -> Result<bool, InvalidInput> {
+pub fn is_unstable(
+    problem: &Arc<Problem>,
+    settings: &Settings,
+    solved: &Solved,
+) -> Result<bool, InvalidInput> {
     let mesh = Mesh::new(problem, solved.nodes.clone(), settings.degree)?;
     for i in 0..mesh.elements() {
         let mut made = Vec::new();
@@ -130,7 +135,7 @@ pub fn is_unstable(problem: &Problem, settings: &Settings, solved: &Solved) -> R
             return Ok(true);
         }
     }
-    let index = System::new(&mesh)?.index(&solved.x, &goal(problem));
+    let index = System::new(mesh)?.index(&solved.x, &goal(problem));
     Ok(index.is_some_and(|index| index > 0))
 }
 

@@ -106,7 +106,7 @@ impl Iterate {
 
     /// Strains at `x` in [0, 1] of an element, by the polynomial through its stages.
     #[must_use]
-    pub fn strain(&self, mesh: &Mesh<'_>, element: usize, x: f64) -> Strain {
+    pub fn strain(&self, mesh: &Mesh, element: usize, x: f64) -> Strain {
         let s = mesh.gauss.degree;
         let basis = mesh.gauss.basis(x);
         let strains = &self.strains[element * s..(element + 1) * s];
@@ -139,13 +139,13 @@ impl Correction {
 
     /// Size: root mean square, over the length, of changes of position/L, angles, `eps` and `K L`.
     #[must_use]
-    pub fn norm(&self, mesh: &Mesh<'_>) -> f64 {
+    pub fn norm(&self, mesh: &Mesh) -> f64 {
         self.dot(self, mesh).sqrt()
     }
 
     /// The scalar product that belongs to the norm.
     #[must_use]
-    pub fn dot(&self, other: &Self, mesh: &Mesh<'_>) -> f64 {
+    pub fn dot(&self, other: &Self, mesh: &Mesh) -> f64 {
         let length = mesh.problem.length;
         let s = mesh.gauss.degree;
         let mut sum = 0.0;
@@ -168,7 +168,7 @@ impl Correction {
 
 /// Makes what is known but for its value at the start follow from that: the force everywhere, whatever the layout, for
 /// dead loads are given; and the moment about the origin, if no force is distributed. `load` is the factor of the loads.
-pub fn settle(mesh: &Mesh<'_>, layout: Layout, x: &mut Iterate, load: f64) {
+pub fn settle(mesh: &Mesh, layout: Layout, x: &mut Iterate, load: f64) {
     for i in 0..mesh.elements() {
         let (mut force, mut about_origin) = (x.nodes[i].force, x.nodes[i].about_origin);
         let h = mesh.length(i) * load;

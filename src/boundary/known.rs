@@ -97,10 +97,10 @@ impl Known<'_> {
     ///
     /// # Errors
     /// Where a section is refused.
-    pub fn shape(&self, mesh: &Mesh<'_>, winds: bool) -> Result<Iterate, InvalidInput> {
+    pub fn shape(&self, mesh: &Mesh, winds: bool) -> Result<Iterate, InvalidInput> {
         match self {
             Self::Natural(size) | Self::Straight(size) | Self::Twisted(size) => {
-                shape_at_rest(mesh, &self.strains(mesh.problem)?, *size, winds)
+                shape_at_rest(mesh, &self.strains(&mesh.problem)?, *size, winds)
             }
             Self::Given(guess) => shape_of_guess(mesh, guess),
         }
@@ -160,13 +160,8 @@ const SLIGHT_IF_CURVED: f64 = 0.02;
 const IMPERFECTION: f64 = 0.2;
 
 /// The shape at rest of these strains with an imperfection of this size.
-fn shape_at_rest(
-    mesh: &Mesh<'_>,
-    strain: &Strains<'_>,
-    size: f64,
-    winds: bool,
-) -> Result<Iterate, InvalidInput> {
-    let problem = mesh.problem;
+fn shape_at_rest(mesh: &Mesh, strain: &Strains<'_>, size: f64, winds: bool) -> Result<Iterate, InvalidInput> {
+    let problem = &mesh.problem;
     let flaw = imperfection(problem, &strain(0.5 * problem.length))?;
     let flawed = |s: f64| strain(s) + flaw(s) * size;
     let start = if winds { problem.ends[0] } else { problem.goal(&problem.ends[0]) };
@@ -196,7 +191,7 @@ fn shape_at_rest(
 }
 
 /// The shape of a guess.
-fn shape_of_guess(mesh: &Mesh<'_>, guess: &Guess) -> Result<Iterate, InvalidInput> {
+fn shape_of_guess(mesh: &Mesh, guess: &Guess) -> Result<Iterate, InvalidInput> {
     let nodes = mesh.nodes.iter().map(|&s| guess.state(s)).collect();
     let strains = (0..mesh.elements()).flat_map(|i| mesh.places(i)).map(|s| guess.strain(s)).collect();
     let mut x = Iterate { nodes, strains, slack: Default::default() };
@@ -207,9 +202,9 @@ fn shape_of_guess(mesh: &Mesh<'_>, guess: &Guess) -> Result<Iterate, InvalidInpu
 }
 
 /// Gives a shape the force and moment at its start that, with the loads, fit its strains best by the law.
-fn fit_wrench(mesh: &Mesh<'_>, guess: &Guess, x: &mut Iterate) -> Result<(), InvalidInput> {
+fn fit_wrench(mesh: &Mesh, guess: &Guess, x: &mut Iterate) -> Result<(), InvalidInput> {
     let units = mesh.problem.units()?;
-    let layout = Layout::of(mesh.problem);
+    let layout = Layout::of(&mesh.problem);
     for node in &mut x.nodes {
         *node = at_rest(node.position, node.rotation);
     }
@@ -258,8 +253,8 @@ fn fit_wrench(mesh: &Mesh<'_>, guess: &Guess, x: &mut Iterate) -> Result<(), Inv
 }
 
 /// Turns a shape that is free to turn about an axis to where its load is lowest.
-fn hang(mesh: &Mesh<'_>, nodes: &mut [At]) {
-    let problem = mesh.problem;
+fn hang(mesh: &Mesh, nodes: &mut [At]) {
+    let problem = &mesh.problem;
     let [start, end] = [0, 1].map(|i| problem.ends[i].hold);
     let (first, last) = (nodes[0].position, nodes[mesh.elements()].position);
     let along = (last - first).try_normalize(0.0);

@@ -1,9 +1,11 @@
 //! What the section law is to the boundary-value problem: resultants from strains, or the other way round.
 
+use std::sync::Arc;
+
 use nalgebra::Matrix4;
 
 use crate::InvalidInput;
-use crate::section::{Held, RibbonLaw, Strain};
+use crate::section::{RibbonLaw, Station, Strain};
 
 /// The law of every section.
 #[derive(Debug)]
@@ -32,16 +34,16 @@ pub struct Rod {
 /// It is kept as `value(e) - compliance n = 0`, a strain. For the relaxed section `compliance` holds the inverse
 /// stiffnesses of the ungrown one, which bring the four resultants to the size of strains, and
 /// `value = compliance dPi/de`; for a rod `value = e - intrinsic`.
-#[derive(Debug)]
-pub struct Response<'a> {
+#[derive(Clone, Debug)]
+pub struct Response {
     /// Factors of `n = (n3, m1, m2, m3)`.
     pub compliance: Strain,
-    kind: Kind<'a>,
+    kind: Kind,
 }
 
-#[derive(Debug)]
-enum Kind<'a> {
-    Relaxed(Held<'a>),
+#[derive(Clone, Debug)]
+enum Kind {
+    Relaxed(Arc<Station>),
     Linear(Strain),
 }
 
@@ -68,7 +70,7 @@ impl Law {
     ///
     /// # Errors
     /// Where dimensions or growth of this section are refused.
-    pub fn at(&self, s: f64) -> Result<Response<'_>, InvalidInput> {
+    pub fn at(&self, s: f64) -> Result<Response, InvalidInput> {
         match self {
             Self::Rod(rod) => Ok(Response { compliance: rod.compliance, kind: Kind::Linear(rod.intrinsic) }),
             Self::Relaxed(law) => {
@@ -96,7 +98,7 @@ fn compliance(station: &crate::section::Station) -> Strain {
     scaled.map(|b| 1.0 / b)
 }
 
-impl Response<'_> {
+impl Response {
     /// `value(e)` and its derivatives, rows by columns.
     #[must_use]
     pub fn value(&self, strain: &Strain) -> (Strain, Matrix4<f64>) {

@@ -1,5 +1,7 @@
 //! Elements, and what is given on them.
 
+use std::sync::Arc;
+
 use nalgebra::Vector3;
 
 use super::gauss::Gauss;
@@ -13,9 +15,10 @@ type Vector = Vector3<f64>;
 const KEPT_STAGES: usize = 20_000;
 
 /// The elements of a problem, with its law and loads at their stages.
-pub struct Mesh<'a> {
+#[derive(Clone)]
+pub struct Mesh {
     /// The problem.
-    pub problem: &'a Problem,
+    pub problem: Arc<Problem>,
     /// The collocation.
     pub gauss: &'static Gauss,
     /// Ends of the elements, `0` to `L`.
@@ -23,17 +26,17 @@ pub struct Mesh<'a> {
     /// At each node the point load there: its force and moment.
     pub points: Vec<Option<(Vector, Vector)>>,
     /// One for a uniform ribbon, one a stage for one that varies, none if there are too many.
-    responses: Vec<Response<'a>>,
+    responses: Vec<Response>,
     /// Distributed force and couple at the stages; none if nothing is distributed.
     load: Vec<(Vector, Vector)>,
 }
 
-impl<'a> Mesh<'a> {
+impl Mesh {
     /// The mesh with these nodes, among them all breaks of the problem.
     ///
     /// # Errors
     /// Where a section is refused.
-    pub fn new(problem: &'a Problem, nodes: Vec<f64>, degree: usize) -> Result<Self, InvalidInput> {
+    pub fn new(problem: &Arc<Problem>, nodes: Vec<f64>, degree: usize) -> Result<Self, InvalidInput> {
         let gauss = Gauss::of(degree);
         let mut points = vec![None; nodes.len()];
         for point in &problem.points {
@@ -41,18 +44,19 @@ impl<'a> Mesh<'a> {
             let (force, moment) = points[node].unwrap_or((Vector::zeros(), Vector::zeros()));
             points[node] = Some((force + point.force, moment + point.moment));
         }
+        let problem = Arc::clone(problem);
         let mut mesh = Self { problem, gauss, nodes, points, responses: Vec::new(), load: Vec::new() };
-        if !problem.law.varies() {
-            mesh.responses.push(problem.law.at(0.0)?);
+        if !mesh.problem.law.varies() {
+            mesh.responses.push(mesh.problem.law.at(0.0)?);
         } else if mesh.stages() <= KEPT_STAGES {
             mesh.responses = (0..mesh.elements())
                 .flat_map(|i| mesh.places(i))
-                .map(|s| problem.law.at(s))
+                .map(|s| mesh.problem.law.at(s))
                 .collect::<Result<_, _>>()?;
         }
-        if problem.has_line_load() {
+        if mesh.problem.has_line_load() {
             let places = (0..mesh.elements()).flat_map(|i| mesh.places(i));
-            mesh.load = places.map(|s| problem.line_load(s)).collect();
+            mesh.load = places.map(|s| mesh.problem.line_load(s)).collect();
         }
         Ok(mesh)
     }
@@ -89,8 +93,8 @@ impl<'a> Mesh<'a> {
     pub fn responses<'b>(
         &'b self,
         element: usize,
-        made: &'b mut Vec<Response<'a>>,
-    ) -> Result<&'b [Response<'a>], InvalidInput> {
+        made: &'b mut Vec<Response>,
+    ) -> Result<&'b [Response], InvalidInput> {
         let degree = self.gauss.degree;
         if self.responses.len() == 1 && !self.problem.law.varies() {
             return Ok(&self.responses);

@@ -55,7 +55,7 @@ pub enum Failed {
 const ROUNDING: f64 = 1e-8;
 
 /// Iterates from `x` until the correction is small.
-pub fn newton(system: &mut System<'_, '_>, x: Iterate, targets: &Targets, control: &Control) -> Ended {
+pub fn newton(system: &mut System, x: Iterate, targets: &Targets, control: &Control) -> Ended {
     let mut norms = Vec::new();
     let mut x = x;
     system.settle(&mut x, targets.load);
@@ -66,7 +66,7 @@ pub fn newton(system: &mut System<'_, '_>, x: Iterate, targets: &Targets, contro
             return Ended { x, norms, failure: Some(failure.into()) };
         }
         let full = system.correction();
-        let size = full.norm(system.mesh);
+        let size = full.norm(&system.mesh);
         norms.push(size);
         if !size.is_finite() {
             let failure = Failure::NotFinite("in a correction".to_owned());
@@ -74,11 +74,11 @@ pub fn newton(system: &mut System<'_, '_>, x: Iterate, targets: &Targets, contro
         }
         let mut fraction = 1.0;
         if let Some((before, simplified, step)) = &last {
-            let difference = distance(simplified, 1.0, &full, system.mesh);
-            let predicted = before * simplified.norm(system.mesh) / (difference * size) * step;
+            let difference = distance(simplified, 1.0, &full, &system.mesh);
+            let predicted = before * simplified.norm(&system.mesh) / (difference * size) * step;
             fraction = predicted.min(1.0);
         }
-        let step = |system: &mut System<'_, '_>, fraction: f64| {
+        let step = |system: &mut System, fraction: f64| {
             let mut trial = x.moved(&full, fraction, &system.units);
             system.settle(&mut trial, targets.load);
             let shorter = system.evaluate(&trial, targets).map(|()| system.correction());
@@ -101,7 +101,7 @@ pub fn newton(system: &mut System<'_, '_>, x: Iterate, targets: &Targets, contro
                     continue;
                 }
             };
-            let shorter = simplified.norm(system.mesh);
+            let shorter = simplified.norm(&system.mesh);
             if fraction == 1.0 && shorter <= control.tolerance && shorter < size {
                 let mut done = trial.moved(&simplified, 1.0, &system.units);
                 system.settle(&mut done, targets.load);
@@ -111,7 +111,7 @@ pub fn newton(system: &mut System<'_, '_>, x: Iterate, targets: &Targets, contro
             if size < ROUNDING && !(shorter < 0.25 * size) {
                 return Ended { x: trial, norms, failure: None };
             }
-            let difference = distance(&simplified, 1.0 - fraction, &full, system.mesh);
+            let difference = distance(&simplified, 1.0 - fraction, &full, &system.mesh);
             let possible = 0.5 * size * fraction * fraction / difference;
             if !(shorter < size) {
                 fraction = if possible < 0.5 * fraction { possible } else { 0.5 * fraction };
@@ -134,6 +134,6 @@ pub fn newton(system: &mut System<'_, '_>, x: Iterate, targets: &Targets, contro
 }
 
 /// Norm of `a - factor b`.
-fn distance(a: &Correction, factor: f64, b: &Correction, mesh: &Mesh<'_>) -> f64 {
+fn distance(a: &Correction, factor: f64, b: &Correction, mesh: &Mesh) -> f64 {
     a.plus(-factor, b).norm(mesh)
 }

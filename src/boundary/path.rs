@@ -5,6 +5,7 @@
 //! slight imperfection, which fades too: past a buckling load the ribbon goes the way that a real one does.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use nalgebra::{Quaternion, Vector3};
 
@@ -129,14 +130,14 @@ impl Path {
     ///
     /// # Errors
     /// Where a section is refused.
-    pub fn new(mesh: &Mesh<'_>, known: &Known<'_>) -> Result<Self, InvalidInput> {
+    pub fn new(mesh: &Mesh, known: &Known<'_>) -> Result<Self, InvalidInput> {
         // What is loaded from the first is a guess; it has its twist, too.
         let given = matches!(known, Known::Given(_));
         let winds = mesh.problem.wound(known) > 0.0;
         let x = known.shape(mesh, winds)?;
         let load = if given { 1.0 } else { 0.0 };
         let mut path = Self { x, base: mesh.problem.ends, load, offset: Vec::new(), winds };
-        settle(mesh, Layout::of(mesh.problem), &mut path.x, path.load);
+        settle(mesh, Layout::of(&mesh.problem), &mut path.x, path.load);
         let count = mesh.elements();
         for (i, end) in path.base.iter_mut().enumerate() {
             let at = &path.x.nodes[i * count];
@@ -177,13 +178,13 @@ impl Path {
     /// Goes on from what was reached, as far as the mesh will do.
     pub fn follow(
         &mut self,
-        system: &mut System<'_, '_>,
+        system: &mut System,
         reached: &mut Reached,
         stride: &mut Stride,
     ) -> Result<Stop, InvalidInput> {
-        let problem = system.mesh.problem;
+        let problem = Arc::clone(&system.mesh.problem);
         if self.offset.is_empty() {
-            let targets = self.targets(problem, 0.0);
+            let targets = self.targets(&problem, 0.0);
             match system.evaluate(&reached.x, &targets) {
                 Ok(()) => self.offset.extend_from_slice(system.law_residual()),
                 Err(failure) => {
@@ -200,7 +201,7 @@ impl Path {
             }
             let ahead = if stride.again { 0.0 } else { stride.step };
             let t = if reached.fraction + 1.001 * ahead >= 1.0 { 1.0 } else { reached.fraction + ahead };
-            let targets = self.targets(problem, t);
+            let targets = self.targets(&problem, t);
             let ended = newton(system, reached.x.clone(), &targets, &control);
             reached.steps += 1;
             reached.iterations += ended.norms.len();
@@ -240,9 +241,9 @@ impl Path {
     }
 
     /// Goes on along the arclength of the way, forth and back in `t`, until `t` is 1.
-    fn past_folds(&self, system: &mut System<'_, '_>, reached: &mut Reached, failure: Failed) -> Stop {
+    fn past_folds(&self, system: &mut System, reached: &mut Reached, failure: Failed) -> Stop {
         let control = Control { tolerance: 1e-6, iterations: 12, least_step: 1e-1 };
-        let goal = self.targets(system.mesh.problem, 1.0);
+        let goal = self.targets(&system.mesh.problem, 1.0);
         reached.failure = Some(failure);
         let (x, t) = (reached.x.clone(), reached.fraction);
         let Ok(mut point) = Point::new(self, system, x, t, None) else { return Stop::Failed };
@@ -283,7 +284,7 @@ impl Path {
     }
 
     /// The way on another mesh.
-    pub fn transfer(&mut self, from: &Mesh<'_>, to: &Mesh<'_>) {
+    pub fn transfer(&mut self, from: &Mesh, to: &Mesh) {
         let offset = std::mem::take(&mut self.offset);
         self.offset = transferred_strains(&offset, from, to);
     }

@@ -114,7 +114,7 @@ impl Solution {
             let found = format!("{count} nodes, {} states, {} strains", x.nodes.len(), x.strains.len());
             return Err(InvalidInput::new("parts", found, "a state a node and `degree` strains an element"));
         }
-        let mesh = Mesh::new(&problem, nodes, degree)?;
+        let mesh = Mesh::new(&problem, nodes.clone(), degree)?;
         let (mut energy, mut load_potential, mut section_index) = (0.0, 0.0, 0);
         let mut stepper = Stepper::new(&problem, mesh.gauss)?;
         for (at, (s, i)) in x.nodes.iter().zip(mesh.nodes.iter().zip(0..)) {
@@ -154,11 +154,10 @@ impl Solution {
             }
         }
         let index = if section_index == 0 && report.fraction == 1.0 {
-            System::new(&mesh)?.index(&x, &goal(&problem))
+            System::new(mesh)?.index(&x, &goal(&problem))
         } else {
             None
         };
-        let nodes = mesh.nodes;
         Ok(Self { problem, degree, nodes, x, report, energy, load_potential, section_index, index })
     }
 

@@ -2,6 +2,8 @@
 
 #![expect(clippy::neg_cmp_op_on_partial_ord, reason = "what is not a number fails every test")]
 
+use std::sync::Arc;
+
 use super::adapt::{estimate, refined, transferred};
 use super::check;
 use super::ends::Hold;
@@ -111,7 +113,11 @@ const MOST_MESHES: usize = 25;
 ///
 /// # Errors
 /// Where a section is refused.
-pub fn solve(problem: &Problem, settings: &Settings, guess: Option<&Guess>) -> Result<Solved, InvalidInput> {
+pub fn solve(
+    problem: &Arc<Problem>,
+    settings: &Settings,
+    guess: Option<&Guess>,
+) -> Result<Solved, InvalidInput> {
     let mut best: Option<Solved> = None;
     let mut spent = Spent::default();
     for attempt in ATTEMPTS {
@@ -173,25 +179,25 @@ pub fn goal(problem: &Problem) -> Targets {
 }
 
 /// The way from the known shape, on meshes that follow it if asked.
-pub fn followed<'p>(
+pub fn followed(
     settings: &Settings,
-    mut mesh: Mesh<'p>,
+    mut mesh: Mesh,
     known: &Known<'_>,
     mut stride: Stride,
     spent: &mut Spent,
-) -> Result<(Mesh<'p>, Reached), InvalidInput> {
+) -> Result<(Mesh, Reached), InvalidInput> {
     let mut path = Path::new(&mesh, known)?;
     let mut reached = Reached::start(&path);
     loop {
-        let mut system = new_system(&mesh, settings)?;
+        let mut system = new_system(mesh, settings)?;
         let stop = path.follow(&mut system, &mut reached, &mut stride)?;
         spent.factorised(&system);
         spent.meshes += 1;
-        drop(system);
+        mesh = system.mesh;
         match stop {
             Stop::Coarse(estimate) if mesh.elements() < MOST_ON_THE_WAY && spent.work < spent.allowed => {
                 let finer =
-                    Mesh::new(mesh.problem, refined(&mesh, &estimate, ERROR_ON_THE_WAY), settings.degree)?;
+                    Mesh::new(&mesh.problem, refined(&mesh, &estimate, ERROR_ON_THE_WAY), settings.degree)?;
                 reached.x = transferred(&reached.x, &mesh, &finer)?;
                 path.transfer(&mesh, &finer);
                 mesh = finer;
@@ -226,7 +232,7 @@ pub struct Spent {
 }
 
 impl Spent {
-    fn factorised(&mut self, system: &System<'_, '_>) {
+    fn factorised(&mut self, system: &System) {
         self.factorisations += system.factorisations;
         self.work += system.factorisations * system.mesh.elements();
     }
@@ -248,7 +254,7 @@ impl Spent {
     }
 }
 
-fn new_system<'m, 'p>(mesh: &'m Mesh<'p>, settings: &Settings) -> Result<System<'m, 'p>, InvalidInput> {
+fn new_system(mesh: Mesh, settings: &Settings) -> Result<System, InvalidInput> {
     match settings.layout {
         Some(layout) => System::with_layout(mesh, layout),
         None => System::new(mesh),
@@ -263,7 +269,7 @@ pub fn first_turn(problem: &Problem, known: &Known<'_>) -> Result<f64, InvalidIn
 }
 
 /// The state that was reached, and why no further.
-pub fn unfinished(mesh: Mesh<'_>, reached: Reached, spent: &Spent) -> Solved {
+pub fn unfinished(mesh: Mesh, reached: Reached, spent: &Spent) -> Solved {
     use super::system::Failure;
     let failure = reached.failure.as_ref();
     let status = match failure {
@@ -277,35 +283,35 @@ pub fn unfinished(mesh: Mesh<'_>, reached: Reached, spent: &Spent) -> Solved {
 }
 
 /// Meshes until the estimated error is below the tolerance.
-pub fn adapted<'p>(
+pub fn adapted(
     settings: &Settings,
-    mut mesh: Mesh<'p>,
+    mut mesh: Mesh,
     mut x: Iterate,
     spent: &mut Spent,
 ) -> Result<Solved, InvalidInput> {
-    let problem: &'p Problem = mesh.problem;
+    let problem = Arc::clone(&mesh.problem);
     let meshes = spent.meshes;
     let (mut before, mut stalls): (Option<f64>, usize) = (None, 0);
     let control =
         Control { tolerance: (1e-2 * settings.tolerance).max(1e-15), iterations: 25, least_step: 1e-2 };
-    let goal = goal(problem);
+    let goal = goal(&problem);
     loop {
         if settings.interrupted.is_some_and(|asks| asks()) {
             let report = spent.report(Status::Interrupted, "interrupted".to_owned(), 1.0, Vec::new());
             return Ok(Solved { nodes: mesh.nodes, x, report });
         }
-        let mut system = new_system(&mesh, settings)?;
+        let mut system = new_system(mesh, settings)?;
         let ended = newton(&mut system, x.clone(), &goal, &control);
         spent.iterations += ended.norms.len();
         spent.factorised(&system);
         if let Some(failure) = ended.failure {
-            drop(system);
+            let mesh = system.mesh;
             let reason = format!("on a mesh of {} elements {failure}", mesh.elements());
             let report = spent.report(Status::Diverged, reason, 1.0, ended.norms);
             return Ok(Solved { nodes: mesh.nodes, x, report });
         }
         if largest_turn(&x, &ended.x) > LARGEST_STEP_TURN {
-            drop(system);
+            let mesh = system.mesh;
             let reason = format!("on a mesh of {} elements {}", mesh.elements(), Failed::Jumped);
             let report = spent.report(Status::Diverged, reason, 1.0, ended.norms);
             return Ok(Solved { nodes: mesh.nodes, x, report });
@@ -314,6 +320,7 @@ pub fn adapted<'p>(
         let estimated = estimate(&mut system, &x, &[])?;
         let error = estimated.error;
         let condition = system.condition();
+        mesh = system.mesh;
         let count = mesh.elements();
         stalls = if before.is_some_and(|e| error > 0.5 * e) { stalls + 1 } else { 0 };
         // Once may be a mesh that was still too coarse; orders of two and more halve the error soon.
@@ -331,7 +338,6 @@ pub fn adapted<'p>(
         } else {
             None
         };
-        drop(system);
         if let Some(status) = status {
             let reason = match status {
                 Status::Unresolved => format!("{count} elements leave an error of {error:.1e}"),
@@ -354,7 +360,7 @@ pub fn adapted<'p>(
         }
         before = Some(error);
         let nodes = refined(&mesh, &estimated, settings.tolerance);
-        let finer = Mesh::new(problem, nodes, settings.degree)?;
+        let finer = Mesh::new(&problem, nodes, settings.degree)?;
         x = transferred(&x, &mesh, &finer)?;
         mesh = finer;
         spent.meshes += 1;

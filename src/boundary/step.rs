@@ -5,6 +5,8 @@
 
 #![expect(clippy::neg_cmp_op_on_partial_ord, reason = "what is not a number fails every test")]
 
+use std::sync::Arc;
+
 use nalgebra::Vector3;
 
 use super::element::{Entry, Exit, Span, Stages};
@@ -17,12 +19,12 @@ use crate::InvalidInput;
 use crate::section::Strain;
 
 /// Steps of one degree, with room for their work.
-pub struct Stepper<'p> {
-    problem: &'p Problem,
+pub struct Stepper {
+    problem: Arc<Problem>,
     gauss: &'static Gauss,
     stages: Box<Stages>,
     eliminated: Eliminated,
-    uniform: Option<Response<'p>>,
+    uniform: Option<Response>,
     /// Offset of the law at the stages of the next steps, by fractions of an element; none if empty.
     offset: Vec<Strain>,
 }
@@ -30,15 +32,15 @@ pub struct Stepper<'p> {
 /// Newton iterations of the stages; from the polynomial of an element two or three do.
 const ITERATIONS: usize = 8;
 
-impl<'p> Stepper<'p> {
+impl Stepper {
     /// A stepper.
     ///
     /// # Errors
     /// Where the section is refused.
-    pub fn new(problem: &'p Problem, gauss: &'static Gauss) -> Result<Self, InvalidInput> {
+    pub fn new(problem: &Arc<Problem>, gauss: &'static Gauss) -> Result<Self, InvalidInput> {
         let uniform = if problem.law.varies() { None } else { Some(problem.law.at(0.0)?) };
         Ok(Self {
-            problem,
+            problem: Arc::clone(problem),
             gauss,
             stages: Box::default(),
             eliminated: Eliminated::default(),
@@ -69,7 +71,7 @@ impl<'p> Stepper<'p> {
         let gauss = self.gauss;
         let degree = gauss.degree;
         let places = gauss.nodes.iter().map(|c| s + c * length);
-        let made: Vec<Response<'p>>;
+        let made: Vec<Response>;
         let responses = match &self.uniform {
             Some(response) => std::slice::from_ref(response),
             None => {
@@ -137,7 +139,7 @@ pub fn left(at: &At, exit: &Exit) -> At {
 
 /// The strains at which the law gives the resultants, from a guess; the guess itself where that fails.
 #[must_use]
-pub fn pointwise(response: &Response<'_>, resultants: &Strain, guess: Strain) -> Strain {
+pub fn pointwise(response: &Response, resultants: &Strain, guess: Strain) -> Strain {
     let mut strain = guess;
     let mut before = f64::INFINITY;
     for _ in 0..20 {

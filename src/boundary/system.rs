@@ -30,9 +30,9 @@ pub struct Targets {
 }
 
 /// The equations on a mesh, with room for their factors.
-pub struct System<'m, 'p> {
+pub struct System {
     /// The mesh.
-    pub mesh: &'m Mesh<'p>,
+    pub mesh: Mesh,
     /// Units of the unknowns.
     pub units: Units,
     layout: Layout,
@@ -91,28 +91,29 @@ pub enum Failure {
     Refused(#[from] InvalidInput),
 }
 
-impl<'m, 'p> System<'m, 'p> {
+impl System {
     /// The equations with the states that their loads need.
     ///
     /// # Errors
     /// Where a section is refused.
-    pub fn new(mesh: &'m Mesh<'p>) -> Result<Self, InvalidInput> {
-        Self::with_layout(mesh, Layout::of(mesh.problem))
+    pub fn new(mesh: Mesh) -> Result<Self, InvalidInput> {
+        let layout = Layout::of(&mesh.problem);
+        Self::with_layout(mesh, layout)
     }
 
     /// The equations with these states, at least those that the loads need.
     ///
     /// # Errors
     /// Where a section is refused.
-    pub fn with_layout(mesh: &'m Mesh<'p>, layout: Layout) -> Result<Self, InvalidInput> {
+    pub fn with_layout(mesh: Mesh, layout: Layout) -> Result<Self, InvalidInput> {
         let chain = Chain::new(layout.states().len(), layout.constants().len());
         Ok(Self {
-            mesh,
             units: mesh.problem.units()?,
             layout,
             stages: Box::default(),
             elements: vec![Eliminated::default(); mesh.elements()],
             anchors: Vec::with_capacity(mesh.elements()),
+            mesh,
             chain,
             border: None,
             sparse: None,
@@ -237,7 +238,7 @@ impl<'m, 'p> System<'m, 'p> {
 
     /// The stages of an element: their residual and, if asked, the elimination of its strains.
     fn enter(&mut self, x: &Iterate, targets: &Targets, i: usize, pass: Pass) -> Result<Exit, Failure> {
-        let (mesh, s) = (self.mesh, self.mesh.gauss.degree);
+        let (mesh, s) = (&self.mesh, self.mesh.gauss.degree);
         let at = &x.nodes[i];
         let mut made = Vec::new();
         let responses = mesh.responses(i, &mut made)?;
@@ -477,7 +478,7 @@ impl<'m, 'p> System<'m, 'p> {
             Place { position: at.position, force: [at.force + jump, at.force], moment: at.moment() }
         };
         let places: Vec<Place> = x.nodes.iter().enumerate().map(place).collect();
-        index(self.mesh.problem, &rows, &places, &self.units)
+        index(&self.mesh.problem, &rows, &places, &self.units)
     }
 
     /// Condition number of what is left when all nodes but the last are eliminated.
@@ -495,7 +496,7 @@ impl<'m, 'p> System<'m, 'p> {
 
     /// Makes the constants of an iterate follow their values at the start.
     pub fn settle(&self, x: &mut Iterate, load: f64) {
-        settle(self.mesh, self.layout, x, load);
+        settle(&self.mesh, self.layout, x, load);
     }
 }
 

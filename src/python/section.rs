@@ -1,6 +1,7 @@
 //! The section law.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use numpy::ndarray::{Array1, Array2};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1};
@@ -16,7 +17,7 @@ use crate::equilibrium::{self, Equilibrium};
 use crate::growth::{Growth, Profile};
 use crate::material::PlaneStress;
 use crate::piecewise::Piecewise;
-use crate::section::{Amplitude, Form, Held, RibbonLaw, RibbonSpec, Station, Strain};
+use crate::section::{Amplitude, Form, RibbonLaw, RibbonSpec, Station, Strain};
 
 /// Relaxed cross-section energy of a growing ribbon.
 #[pyclass(frozen, module = "ribbonrs._core")]
@@ -72,7 +73,7 @@ impl SectionLaw {
         let mut values = vec![0.0; N * strains.len()];
         let rows = ROWS[usize::from(self.law.varies())];
         let chunk = |(first, values): (usize, &mut [f64])| {
-            let mut known: Option<(f64, Held<'_>)> = None;
+            let mut known: Option<(f64, Arc<Station>)> = None;
             for (row, value) in (first * rows..).zip(values.chunks_exact_mut(N)) {
                 // Neighbours at one `S` share a section.
                 let station = match known.take() {

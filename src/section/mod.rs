@@ -40,7 +40,7 @@ pub use pieces::Reach;
 pub use published::PublishedSaddle;
 pub use reduction::Reduction;
 pub use relaxation::{Relaxation, Relaxed, Square};
-pub use ribbon::{Amplitude, Held, RibbonLaw, RibbonSpec, Station};
+pub use ribbon::{Amplitude, RibbonLaw, RibbonSpec, Station};
 pub use second_order::SecondOrder;
 
 use std::sync::Arc;

@@ -13,7 +13,6 @@
 //! shared: the smooth basis by all, the modes of growth with jumps by all sections that sum the same profiles.
 
 use std::collections::HashMap;
-use std::ops::Deref;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::{Evaluation, Form, Mesh, Reach, Reduction, Section, Strain};
@@ -89,7 +88,7 @@ impl RibbonSpec {
 #[derive(Debug)]
 pub struct RibbonLaw {
     spec: RibbonSpec,
-    uniform: Option<Station>,
+    uniform: Option<Arc<Station>>,
     /// Modes of the profiles with these places in `spec.growth`.
     reaches: Mutex<HashMap<Vec<usize>, Arc<Reach>>>,
 }
@@ -100,26 +99,6 @@ pub struct Station {
     section: Section,
     width: f64,
     weight: f64,
-}
-
-/// A station that is kept or made for the occasion.
-#[derive(Debug)]
-pub enum Held<'a> {
-    /// That of a uniform ribbon.
-    Kept(&'a Station),
-    /// That of one `S`.
-    Made(Box<Station>),
-}
-
-impl Deref for Held<'_> {
-    type Target = Station;
-
-    fn deref(&self) -> &Station {
-        match self {
-            Self::Kept(station) => station,
-            Self::Made(station) => station,
-        }
-    }
 }
 
 impl RibbonLaw {
@@ -153,7 +132,7 @@ impl RibbonLaw {
         let mut law = Self { spec, uniform: None, reaches: Mutex::default() };
         let first = law.make(law.breaks().first().copied().unwrap_or(0.0))?;
         if !law.varies() {
-            law.uniform = Some(first);
+            law.uniform = Some(Arc::new(first));
         }
         Ok(law)
     }
@@ -184,10 +163,10 @@ impl RibbonLaw {
     ///
     /// # Errors
     /// As [`Section::new`], where dimensions or growth of this section are refused.
-    pub fn station(&self, s: f64) -> Result<Held<'_>, InvalidInput> {
+    pub fn station(&self, s: f64) -> Result<Arc<Station>, InvalidInput> {
         match &self.uniform {
-            Some(station) => Ok(Held::Kept(station)),
-            None => Ok(Held::Made(Box::new(self.make(s)?))),
+            Some(station) => Ok(Arc::clone(station)),
+            None => Ok(Arc::new(self.make(s)?)),
         }
     }
 

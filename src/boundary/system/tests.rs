@@ -1,5 +1,7 @@
 //! The Jacobian against differences, and the chain against faer.
 
+use std::sync::Arc;
+
 use super::*;
 use crate::boundary::ends::Hold;
 use crate::boundary::iterate::at_rest;
@@ -50,7 +52,7 @@ fn problem(holds: [Hold; 2], force: bool, numbers: &mut Numbers) -> Problem {
     Problem::new(Law::Relaxed(law.unwrap()), 7.0, ends, points.to_vec(), line).unwrap()
 }
 
-fn iterate(mesh: &Mesh<'_>, numbers: &mut Numbers) -> Iterate {
+fn iterate(mesh: &Mesh, numbers: &mut Numbers) -> Iterate {
     let mut node = |&s: &f64| {
         let mut at = at_rest(Vector::new(0.0, 0.0, s) + numbers.vector(0.2), numbers.rotation());
         (at.force, at.about_origin) = (numbers.vector(1e-3), numbers.vector(1e-3));
@@ -97,10 +99,10 @@ fn the_sparse_matrix_gives_the_same() {
         ([Hold::Clamped, Hold::Clamped], true, Layout::Moment),
         ([Hold::Pinned, Hold::Sliding(Vector::z())], false, Layout::Full),
     ] {
-        let problem = problem(holds, force, &mut numbers);
+        let problem = Arc::new(problem(holds, force, &mut numbers));
         let nodes = vec![0.0, 1.0, 2.0, 3.5, 5.0, 7.0];
         let mesh = Mesh::new(&problem, nodes, 3).unwrap();
-        let mut system = System::with_layout(&mesh, layout).unwrap();
+        let mut system = System::with_layout(mesh.clone(), layout).unwrap();
         let mut x = iterate(&mesh, &mut numbers);
         let ends = [0, 1].map(|i| problem.goal(&problem.ends[i]));
         let targets = Targets { ends, load: 0.7, offset: Vec::new() };
@@ -131,12 +133,12 @@ fn the_jacobian_is_exact() {
         ([Hold::Pinned, sliding], true, vec![Layout::Moment]),
         ([Hold::Hinged(0), Hold::Clamped], false, vec![Layout::Constant, Layout::Moment]),
     ] {
-        let problem = problem(holds, force, &mut numbers);
+        let problem = Arc::new(problem(holds, force, &mut numbers));
         for layout in layouts {
             for degree in [1, 2, 4] {
                 let nodes = vec![0.0, 1.0, 2.0, 3.5, 5.0, 7.0];
                 let mesh = Mesh::new(&problem, nodes, degree).unwrap();
-                let mut system = System::with_layout(&mesh, layout).unwrap();
+                let mut system = System::with_layout(mesh.clone(), layout).unwrap();
                 let mut x = iterate(&mesh, &mut numbers);
                 let targets = Targets {
                     ends: [0, 1].map(|i| problem.goal(&problem.ends[i])),

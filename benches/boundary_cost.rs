@@ -12,11 +12,11 @@ use ribbonrs::boundary::{End, Hold, Known, Law, Layout, LineLoad, Mesh, Path, Pr
 use ribbonrs::growth::Growth;
 use ribbonrs::section::{RibbonLaw, RibbonSpec};
 
-fn problem() -> Problem {
+fn problem() -> Arc<Problem> {
     let law = RibbonLaw::new(RibbonSpec::uniform(0.1, Growth::edge(0.02))).expect("a law for this growth");
     let far = End { position: Vector3::new(0.0, 0.0, 9.0), turns: 0.5, ..End::new(Hold::Clamped) };
     let (ends, line) = ([End::new(Hold::Clamped), far], LineLoad::uniform([0.0; 3]));
-    Problem::new(Law::Relaxed(law), 10.0, ends, vec![], line).expect("a problem")
+    Arc::new(Problem::new(Law::Relaxed(law), 10.0, ends, vec![], line).expect("a problem"))
 }
 
 /// Median of the seconds that `run` takes.

@@ -45,8 +45,20 @@ pub struct Chain {
 #[derive(Clone, Debug, Default)]
 struct Last {
     size: usize,
+    /// Before its elimination.
+    open: Vec<f64>,
     block: Vec<f64>,
     swaps: Vec<usize>,
+    pivot: f64,
+}
+
+/// Right-hand sides with all but the last panel eliminated.
+#[derive(Clone, Debug)]
+pub struct Reduced {
+    /// `n` numbers an element.
+    pub kept: Vec<f64>,
+    /// Of the last panel.
+    pub last: Vec<f64>,
 }
 
 /// Columns and rows that border the last panel where a closed ribbon may glide along itself or, if it is the same in
@@ -170,10 +182,9 @@ impl Chain {
                 block.extend(border.phase.iter().map(|_| 0.0));
             }
         }
-        let mut swaps = vec![0; size];
+        let (open, mut swaps) = (block.clone(), vec![0; size]);
         let pivot = eliminate(&mut block, size, size, &mut swaps);
-        self.pivot = least_of(self.pivot, pivot);
-        self.last = Last { size, block, swaps };
+        self.last = Last { size, open, block, swaps, pivot };
     }
 
     /// The border that small singular values of the last panel ask for; `None` if none is far below the others.
@@ -203,13 +214,25 @@ impl Chain {
     /// The least relative pivot met: of the order of rounding, zero or NaN where the chain is singular.
     #[must_use]
     pub fn pivot(&self) -> f64 {
+        least_of(self.pivot, self.last.pivot)
+    }
+
+    /// The same without the last panel.
+    #[must_use]
+    pub fn inner_pivot(&self) -> f64 {
         self.pivot
+    }
+
+    /// The last panel before its elimination, by rows: of the last node, the constants, and the slack of a border.
+    #[must_use]
+    pub fn last(&self) -> DMatrix<f64> {
+        DMatrix::from_row_slice(self.last.size, self.last.size, &self.last.open)
     }
 
     /// Condition number, in the 1-norm, of what is left for the last node and the constants.
     #[must_use]
     pub fn condition(&self) -> f64 {
-        let Last { size, block, swaps } = &self.last;
+        let Last { size, block, swaps, .. } = &self.last;
         let size = *size;
         let (mut inverse, mut norm) = (0.0_f64, 0.0_f64);
         for column in 0..size {
@@ -231,7 +254,24 @@ impl Chain {
     /// Solves for right-hand sides at the start (6), of the elements (`n` each) and at the end.
     #[must_use]
     pub fn solve(&self, start: &[f64], elements: &[f64], end: &[f64]) -> Changes {
-        let (n, m, stride) = (self.n, self.m, self.stride());
+        let Reduced { kept, last } = self.reduce(start, elements, end);
+        self.expand(&kept, &self.solve_last(&last))
+    }
+
+    /// Solves the last panel.
+    #[must_use]
+    pub fn solve_last(&self, rhs: &[f64]) -> Vec<f64> {
+        let Last { size, block, swaps, .. } = &self.last;
+        let mut last = rhs.to_vec();
+        forward(block, *size, swaps, &mut last);
+        backward(block, *size, &mut last);
+        last
+    }
+
+    /// Eliminates right-hand sides but for the last panel.
+    #[must_use]
+    pub fn reduce(&self, start: &[f64], elements: &[f64], end: &[f64]) -> Reduced {
+        let (n, stride) = (self.n, self.stride());
         let mut carried = start.to_vec();
         let mut kept = vec![0.0; elements.len()];
         let mut rhs = vec![0.0; CARRIED + n];
@@ -244,16 +284,20 @@ impl Chain {
             carried.copy_from_slice(&rhs[n..]);
         }
         carried.extend_from_slice(end);
-        let Last { size, block, swaps } = &self.last;
-        carried.resize(*size, 0.0);
-        forward(block, *size, swaps, &mut carried);
-        backward(block, *size, &mut carried);
-        let slack = std::array::from_fn(|i| carried.get(n + m + i).copied().unwrap_or(0.0));
+        carried.resize(self.last.size, 0.0);
+        Reduced { kept, last: carried }
+    }
+
+    /// The changes of all from those of the last panel, for right-hand sides that were reduced.
+    #[must_use]
+    pub fn expand(&self, kept: &[f64], last: &[f64]) -> Changes {
+        let (n, m, stride) = (self.n, self.m, self.stride());
+        let slack = std::array::from_fn(|i| last.get(n + m + i).copied().unwrap_or(0.0));
         let count = self.elements() + 1;
         let mut states = vec![0.0; n * count];
         let mut constants = vec![0.0; m * count];
-        states[n * (count - 1)..].copy_from_slice(&carried[..n]);
-        constants[m * (count - 1)..].copy_from_slice(&carried[n..n + m]);
+        states[n * (count - 1)..].copy_from_slice(&last[..n]);
+        constants[m * (count - 1)..].copy_from_slice(&last[n..n + m]);
         let mut jumps = self.jumps.iter().rev().peekable();
         for i in (0..count - 1).rev() {
             let (head, next) = states.split_at_mut((i + 1) * n);

@@ -68,7 +68,7 @@ fn natural_strains(problem: &Problem) -> Result<Strains<'_>, InvalidInput> {
         let natural = problem.law.at(0.0)?.natural();
         return Ok(Box::new(move |_| natural));
     }
-    if let Law::Relaxed(law) = &problem.law
+    if let Law::Relaxed(law) = &*problem.law
         && let Some(branch) = natural_branches(law, problem.length)?.into_iter().next()
     {
         return Ok(Box::new(move |s| branch.strain(s)));

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::Matrix4;
 
 use crate::InvalidInput;
-use crate::section::{RibbonLaw, Station, Strain};
+use crate::section::{RibbonLaw, RibbonSpec, Station, Strain};
 
 /// The law of every section.
 #[derive(Debug)]
@@ -54,6 +54,15 @@ impl Law {
         match self {
             Self::Relaxed(law) | Self::Linearised(law) => law.varies(),
             Self::Rod(_) => false,
+        }
+    }
+
+    /// What a ribbon is made of and how it grows; `None` for a rod.
+    #[must_use]
+    pub fn spec(&self) -> Option<&RibbonSpec> {
+        match self {
+            Self::Relaxed(law) | Self::Linearised(law) => Some(law.spec()),
+            Self::Rod(_) => None,
         }
     }
 

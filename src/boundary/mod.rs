@@ -9,7 +9,7 @@
 //!
 //! | file | role |
 //! |---|---|
-//! | `problem`, `ends`, `law` | what is given |
+//! | `problem`, `ends`, `law`, `family` | what is given, and how it depends on parameters |
 //! | `gauss`, `element`, `eliminated` | one element: stages, linearisation, elimination of its strains |
 //! | `transfer`, `chain`, `dense` | elimination of the nodes |
 //! | `sparse` | the same without elimination, by faer |
@@ -24,11 +24,13 @@ mod adapt;
 mod arclength;
 mod chain;
 mod check;
+mod correct;
 mod dense;
 mod element;
 mod eliminated;
 mod ends;
 mod fallen;
+mod family;
 mod gauss;
 mod iterate;
 mod known;
@@ -43,10 +45,12 @@ mod solve;
 mod sparse;
 mod stability;
 mod step;
+mod symmetric;
 mod system;
 mod transfer;
 
 pub use ends::{At, End, Hold};
+pub use family::Family;
 pub use gauss::MAX_DEGREE;
 pub use iterate::{Correction, Iterate, Layout};
 pub use known::{Guess, Known};

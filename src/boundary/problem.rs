@@ -1,5 +1,7 @@
 //! The problem: a law, ends and loads.
 
+use std::sync::Arc;
+
 use nalgebra::{Quaternion, Vector3};
 
 use super::ends::{End, Hold, Units};
@@ -45,7 +47,7 @@ impl LineLoad {
 #[derive(Debug)]
 pub struct Problem {
     /// The law of its sections.
-    pub law: Law,
+    pub law: Arc<Law>,
     /// Length `L` in units of the width.
     pub length: f64,
     /// How the ends at `S = 0` and `S = L` are held.
@@ -63,7 +65,7 @@ impl Problem {
     /// If the length is not positive, a number is not finite, a quaternion is not of unit length, or a point load
     /// is not inside.
     pub fn new(
-        law: Law,
+        law: impl Into<Arc<Law>>,
         length: f64,
         ends: [End; 2],
         mut points: Vec<PointLoad>,
@@ -99,7 +101,7 @@ impl Problem {
             }
         }
         points.sort_by(|a, b| a.s.total_cmp(&b.s));
-        let mut problem = Self { law, length, ends, points, line };
+        let mut problem = Self { law: law.into(), length, ends, points, line };
         for end in &mut problem.ends {
             end.rotation *= 1.0 / end.rotation.norm();
         }

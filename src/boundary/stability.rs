@@ -33,6 +33,7 @@ use nalgebra::{DMatrix, Matrix6, SMatrix, Vector3};
 
 use super::ends::{End, Hold, Units};
 use super::problem::Problem;
+use super::symmetric::Symmetric;
 use super::transfer::Rows;
 
 type Vector = Vector3<f64>;
@@ -142,31 +143,53 @@ fn symmetric(k: &Matrix6<f64>) -> Matrix6<f64> {
     0.5 * (k + k.transpose())
 }
 
-/// The index under the end conditions; `None` where it cannot be told.
+/// What the signs of the pivots say of the index.
+#[derive(Clone, Debug)]
+pub struct Inertia {
+    inner: isize,
+    /// Eigenvalues of the last pivot, ascending: smooth along a branch, those that change sign vanish where the whole is
+    /// singular.
+    pub last: Vec<f64>,
+    zero: f64,
+}
+
+impl Inertia {
+    /// The index.
+    #[must_use]
+    pub fn index(&self) -> Option<usize> {
+        let largest = self.last.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let negative = self.last.iter().filter(|&&value| value < self.zero * largest).count();
+        usize::try_from(self.inner + negative as isize - 6).ok()
+    }
+}
+
+/// Eliminates the chain; `None` where the index cannot be told.
 #[must_use]
-pub fn index(problem: &Problem, rows: &[Rows], places: &[Place], units: &Units) -> Option<usize> {
+pub fn inertia(problem: &Problem, rows: &[Rows], places: &[Place], units: &Units) -> Option<Inertia> {
     let rigid = problem.law.at(0.0).ok()?.compliance.min() == 0.0;
     let free = freedom(problem.ends[0].hold);
     let springs = &free * free.transpose() / -SPRING;
     let mut behind: Matrix6<f64> = SMatrix::from_iterator(springs.iter().copied());
-    let mut index = 0_isize;
+    let mut inner = 0_isize;
     for (rows, ends) in rows.iter().zip(places.windows(2)) {
         let element = Blocks::new(rows, [&ends[0], &ends[1]], units)?;
         // An element so long that it buckles by itself, held at its start alone: its strains were eliminated at that.
-        let own = element.pp.symmetric_eigenvalues();
-        index += own.iter().filter(|&&value| value > BUCKLED * own.amax()).count() as isize;
+        let softness = -element.pp;
+        inner += Symmetric::new(&softness)?.negative(BUCKLED * softness.amax()) as isize;
         let mut pivot = SMatrix::<f64, 12, 12>::zeros();
         pivot.fixed_view_mut::<6, 6>(0, 0).copy_from(&behind);
         pivot.fixed_view_mut::<6, 6>(0, 6).fill_with_identity();
         pivot.fixed_view_mut::<6, 6>(6, 0).fill_with_identity();
         pivot.fixed_view_mut::<6, 6>(6, 6).copy_from(&element.dd);
-        if !pivot.iter().all(|x| x.is_finite()) {
-            return None;
+        let pivot = Symmetric::new(&pivot)?;
+        inner += pivot.negative(0.0) as isize - 6;
+        let mut own = Matrix6::zeros();
+        for (column, dp) in element.dp.column_iter().enumerate() {
+            let mut rhs = [0.0; 12];
+            rhs[6..].copy_from_slice(dp.as_slice());
+            own.column_mut(column).copy_from_slice(&pivot.solve(&rhs)[6..]);
         }
-        index += pivot.symmetric_eigenvalues().iter().filter(|&&value| value < 0.0).count() as isize - 6;
-        let inverse = pivot.try_inverse()?;
-        let own = inverse.fixed_view::<6, 6>(6, 6);
-        behind = symmetric(&(element.pp - element.dp.transpose() * own * element.dp));
+        behind = symmetric(&(element.pp - element.dp.transpose() * own));
     }
     let free = freedom(problem.ends[1].hold);
     let size = 6 + free.ncols();
@@ -174,14 +197,16 @@ pub fn index(problem: &Problem, rows: &[Rows], places: &[Place], units: &Units) 
     last.view_mut((0, 0), (6, 6)).copy_from(&behind);
     last.view_mut((0, 6), (6, free.ncols())).copy_from(&free);
     last.view_mut((6, 0), (free.ncols(), 6)).copy_from(&free.transpose());
-    let values = last.symmetric_eigenvalues();
+    if !last.iter().all(|x| x.is_finite()) {
+        return None;
+    }
     // No flexibility at all is a little of it; of gliding there is neither more nor less.
     let zero = match (problem.glides(), rigid) {
         (true, _) => -GLIDING,
         (false, true) => ROUNDING,
         (false, false) => 0.0,
     };
-    let largest = values.amax();
-    index += values.iter().filter(|&&value| value < zero * largest).count() as isize - 6;
-    usize::try_from(index).ok()
+    let mut last: Vec<f64> = last.symmetric_eigenvalues().iter().copied().collect();
+    last.sort_by(f64::total_cmp);
+    Some(Inertia { inner, last, zero })
 }

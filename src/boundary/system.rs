@@ -6,13 +6,13 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::chain::{Border, Chain};
 use super::element::{Entry, Exit, Span, Stages};
-use super::eliminated::{Change, Eliminated};
+use super::eliminated::Eliminated;
 use super::ends::{Condition, End, Units, conditions, half_angle};
-use super::iterate::{Correction, Iterate, Layout, settle};
+use super::iterate::{Iterate, Layout, settle};
 use super::mesh::Mesh;
 use super::sparse::{Blocks, Sparse};
-use super::stability::{Place, index};
-use super::transfer::{Anchor, Flexibility, Rows, cayley, joined, transfer};
+use super::stability::{Inertia, Place, inertia};
+use super::transfer::{Anchor, Flexibility, Rows, cayley, transfer};
 use crate::InvalidInput;
 use crate::section::Strain;
 
@@ -35,17 +35,17 @@ pub struct System {
     pub mesh: Mesh,
     /// Units of the unknowns.
     pub units: Units,
-    layout: Layout,
+    pub(super) layout: Layout,
     stages: Box<Stages>,
-    elements: Vec<Eliminated>,
-    anchors: Vec<Anchor>,
-    chain: Chain,
+    pub(super) elements: Vec<Eliminated>,
+    pub(super) anchors: Vec<Anchor>,
+    pub(super) chain: Chain,
     border: Option<Border>,
     /// In place of the chain, where the stages of an element are singular.
-    sparse: Option<Sparse>,
-    /// Of the elements, if they are asked for.
-    transfers: Option<Vec<Rows>>,
-    residual: Residual,
+    pub(super) sparse: Option<Sparse>,
+    /// Of the elements.
+    transfers: Vec<Rows>,
+    pub(super) residual: Residual,
     load: Vec<(Vector, Vector)>,
     /// How often the Jacobian was factorised.
     pub factorisations: usize,
@@ -53,11 +53,24 @@ pub struct System {
 
 /// The residual: of the law at the stages, of continuity, and minus that of the end conditions.
 #[derive(Clone, Debug, Default)]
-struct Residual {
-    strains: Vec<Strain>,
-    gaps: Vec<[f64; 9]>,
-    start: [f64; 6],
-    end: [f64; 6],
+pub(super) struct Residual {
+    pub strains: Vec<Strain>,
+    pub gaps: Vec<[f64; 9]>,
+    pub start: [f64; 6],
+    pub end: [f64; 6],
+}
+
+impl Residual {
+    /// The difference to another, over `step`.
+    pub fn subtract(&mut self, other: &Self, step: f64) {
+        self.strains
+            .iter_mut()
+            .zip(&other.strains)
+            .for_each(|(mine, theirs)| *mine = (*mine - theirs) / step);
+        let gaps = self.gaps.iter_mut().flatten().zip(other.gaps.iter().flatten());
+        let ends = self.start.iter_mut().zip(&other.start).chain(self.end.iter_mut().zip(&other.end));
+        gaps.chain(ends).for_each(|(mine, theirs)| *mine = (*mine - theirs) / step);
+    }
 }
 
 /// What is done with the equations.
@@ -117,7 +130,7 @@ impl System {
             chain,
             border: None,
             sparse: None,
-            transfers: None,
+            transfers: Vec::new(),
             residual: Residual::default(),
             load: Vec::new(),
             factorisations: 0,
@@ -132,7 +145,7 @@ impl System {
         self.pass(x, targets, Pass::Residual)
     }
 
-    /// Sets the residual to the difference of those for two targets, over `step`: what a parameter does to it.
+    /// Sets the residual to the difference of those for two targets, over `step`: what the way does to it.
     ///
     /// # Errors
     /// As [`System::evaluate`].
@@ -143,14 +156,7 @@ impl System {
         let before = std::mem::take(&mut self.residual);
         self.settle(&mut settled, targets[1].load);
         self.evaluate(&settled, &targets[1])?;
-        let r = &mut self.residual;
-        r.strains
-            .iter_mut()
-            .zip(&before.strains)
-            .for_each(|(after, before)| *after = (*after - before) / step);
-        let gaps = r.gaps.iter_mut().flatten().zip(before.gaps.iter().flatten());
-        let ends = r.start.iter_mut().zip(&before.start).chain(r.end.iter_mut().zip(&before.end));
-        gaps.chain(ends).for_each(|(after, before)| *after = (*after - before) / step);
+        self.residual.subtract(&before, step);
         Ok(())
     }
 
@@ -159,6 +165,18 @@ impl System {
     /// # Errors
     /// A singular Jacobian, a residual that is not finite, a section that is refused.
     pub fn linearise(&mut self, x: &Iterate, targets: &Targets) -> Result<(), Failure> {
+        self.linearise_open(x, targets)?;
+        if self.sparse.is_none() && !(self.chain.pivot() > SINGULAR) {
+            return Err(Failure::Singular("in the conditions that join the elements".to_owned()));
+        }
+        Ok(())
+    }
+
+    /// The same where the Jacobian may be singular, as long as that shows in the last panel alone: at a bifurcation.
+    ///
+    /// # Errors
+    /// As [`System::linearise`].
+    pub fn linearise_open(&mut self, x: &Iterate, targets: &Targets) -> Result<(), Failure> {
         self.factorisations += 1;
         self.sparse = None;
         match self.pass(x, targets, Pass::Condensed) {
@@ -195,6 +213,7 @@ impl System {
         self.residual.end = end.map(|(_, rhs)| rhs);
         if pass != Pass::Residual {
             self.anchors.clear();
+            self.transfers.clear();
             let start = self.placed(&start);
             match &mut self.sparse {
                 Some(sparse) => sparse.conditions(0, &start),
@@ -229,7 +248,7 @@ impl System {
                 self.border = self.chain.border(&end);
             }
             self.chain.finish(&end, self.border.as_ref());
-            if !(self.chain.pivot() > SINGULAR) {
+            if !(self.chain.inner_pivot() > SINGULAR) {
                 return Err(Failure::Singular("in the conditions that join the elements".to_owned()));
             }
         }
@@ -307,9 +326,7 @@ impl System {
             _ => [[none(); 3], [none(); 3], [none(), none(), element.lever]],
         };
         let rows = transfer(&flexibility, &anchor, exit, &self.units);
-        if let Some(kept) = &mut self.transfers {
-            kept.push(rows);
-        }
+        self.transfers.push(rows);
         let (states, constants) = (self.layout.states(), self.layout.constants());
         let n = states.len();
         let (mut a, mut b, mut j) = (Vec::with_capacity(n * n), Vec::new(), vec![0.0; n * n]);
@@ -389,96 +406,25 @@ impl System {
         conditions.iter().flat_map(|(row, _)| columns().map(|&column| row[column])).collect()
     }
 
-    /// The Newton correction for the residual last evaluated, by the factors last computed.
-    #[must_use]
-    pub fn correction(&self) -> Correction {
-        let (states, constants) = (self.layout.states(), self.layout.constants());
-        let (n, s) = (states.len(), self.mesh.gauss.degree);
-        let count = self.mesh.elements();
-        let mut strains = vec![Strain::zeros(); self.mesh.stages()];
-        let mut rhs = Vec::with_capacity(n * count);
-        for i in 0..count {
-            let own = i * s..(i + 1) * s;
-            let mut change = Change::default();
-            if self.sparse.is_none() {
-                change = self.elements[i].solve(&self.residual.strains[own.clone()], &mut strains[own]);
-            }
-            let full = joined(&self.residual.gaps[i], &change, &self.anchors[i].turn, &self.units);
-            rhs.extend(states.iter().map(|&state| match state {
-                0..6 => full[state],
-                6..9 => 0.0,
-                _ => full[state - 3],
-            }));
-        }
-        let Residual { start, end, .. } = &self.residual;
-        let changes = match &self.sparse {
-            None => self.chain.solve(start, &rhs, end),
-            Some(sparse) => {
-                let law: Vec<f64> = self.residual.strains.iter().flat_map(|c| (-c).data.0[0]).collect();
-                let Some((changes, own)) = sparse.solve(start, &law, &rhs, end) else {
-                    return self.no_correction();
-                };
-                for (strain, own) in strains.iter_mut().zip(own.chunks_exact(4)) {
-                    *strain = Strain::from_column_slice(own);
-                }
-                changes
-            }
-        };
-        let m = constants.len();
-        let node = |i: usize| {
-            let mut change = [0.0; 12];
-            for (&place, value) in states.iter().zip(&changes.states[i * n..]) {
-                change[place] = *value;
-            }
-            for (&place, value) in constants.iter().zip(&changes.constants[i * m..]) {
-                change[place] = *value;
-            }
-            change
-        };
-        let nodes: Vec<[f64; 12]> = (0..=count).map(node).collect();
-        for i in (0..count).filter(|_| self.sparse.is_none()) {
-            let inputs = self.anchors[i].inputs(&nodes[i], &self.units);
-            self.elements[i].respond(&inputs, &mut strains[i * s..(i + 1) * s]);
-        }
-        Correction { nodes, strains, slack: changes.slack }
-    }
-
-    /// None, which no norm mistakes for small.
-    fn no_correction(&self) -> Correction {
-        let nodes = vec![[f64::NAN; 12]; self.mesh.elements() + 1];
-        Correction { nodes, strains: vec![Strain::zeros(); self.mesh.stages()], slack: Default::default() }
-    }
-
-    /// The correction that gives each element another end: what its position, rotation and moment about the origin
-    /// are to change by, other residuals being zero.
-    #[must_use]
-    pub fn correction_for(&mut self, defects: Vec<[f64; 9]>) -> Correction {
-        self.residual.strains.iter_mut().for_each(|e| *e = Strain::zeros());
-        self.residual.gaps = defects;
-        (self.residual.start, self.residual.end) = ([0.0; 6], [0.0; 6]);
-        self.correction()
-    }
-
     /// The stability index of a solution under the end conditions, where its sections are stable and its loads have a
     /// potential; `None` where it cannot be told.
     pub fn index(&mut self, x: &Iterate, targets: &Targets) -> Option<usize> {
-        if !self.mesh.problem.is_conservative() {
-            return None;
-        }
-        self.sparse = None;
-        self.transfers = Some(Vec::with_capacity(self.mesh.elements()));
-        let linearised = self.pass(x, targets, Pass::Condensed);
-        let rows = self.transfers.take()?;
-        // Singular at a bifurcation: the elements are known all the same.
-        if linearised.is_err() && rows.len() < self.mesh.elements() {
+        self.linearise_open(x, targets).ok()?;
+        self.inertia(x, targets.load)?.index()
+    }
+
+    /// What the elements that were just linearised say of the index; `None` where it cannot be told.
+    #[must_use]
+    pub fn inertia(&self, x: &Iterate, load: f64) -> Option<Inertia> {
+        if self.sparse.is_some() || !self.mesh.problem.is_conservative() {
             return None;
         }
         let place = |(i, at): (usize, &super::ends::At)| {
-            let jump = self.mesh.points[i].map_or(Vector::zeros(), |(force, _)| targets.load * force);
+            let jump = self.mesh.points[i].map_or(Vector::zeros(), |(force, _)| load * force);
             Place { position: at.position, force: [at.force + jump, at.force], moment: at.moment() }
         };
         let places: Vec<Place> = x.nodes.iter().enumerate().map(place).collect();
-        index(&self.mesh.problem, &rows, &places, &self.units)
+        inertia(&self.mesh.problem, &self.transfers, &places, &self.units)
     }
 
     /// Condition number of what is left when all nodes but the last are eliminated.

@@ -20,6 +20,7 @@
 //! | [`PublishedSaddle`] | thickness gradient | eqs. (47)-(50) as published |
 
 pub mod basis;
+mod blend;
 mod closed;
 mod deflection;
 mod general;
@@ -32,6 +33,7 @@ mod ribbon;
 mod second_order;
 pub mod sigma;
 
+pub use blend::blend;
 pub use closed::ClosedForm;
 pub use deflection::{Deflection, InPlane};
 pub use general::GeneralLaw;

@@ -1,0 +1,249 @@
+//! Corrections: what the factorised equations make of a residual, also where a parameter is unknown beside the state.
+//!
+//! With `F_t` the change of the residual with the parameter, the equations `J dx + F_t dt = -F` have a line of solutions. All nodes
+//! but the last are eliminated as ever; in the last panel `t` is one more column, and a row tells where on the line,
+//!
+//! ```text
+//! [ B   b ] [y ]   [ r ]
+//! [ c  c_t] [dt] = [ 0 ],
+//! ```
+//!
+//! regular at a fold, where `B` alone is not, and singular at a branch point only.
+
+use nalgebra::{DMatrix, DVector, Dyn, LU};
+
+use super::chain::Reduced;
+use super::eliminated::Change;
+use super::iterate::Correction;
+use super::system::{Residual, System};
+use super::transfer::joined;
+use crate::section::Strain;
+
+/// A change of the state and of the parameter.
+#[derive(Clone, Debug)]
+pub struct Line {
+    /// Of the state.
+    pub x: Correction,
+    /// Of the parameter.
+    pub t: f64,
+}
+
+/// A residual with the strains and all nodes but the last eliminated.
+#[derive(Clone, Debug)]
+struct Rhs {
+    strains: Vec<Strain>,
+    nodes: Reduced,
+}
+
+/// The factors of the equations with a parameter.
+pub struct Bordered {
+    by_parameter: Residual,
+    kind: Kind,
+}
+
+enum Kind {
+    Chain {
+        by_parameter: Rhs,
+        factors: LU<f64, Dyn, Dyn>,
+    },
+    /// The state at a unit of the parameter.
+    Sparse(Correction),
+}
+
+impl System {
+    /// The Newton correction for the residual last evaluated, by the factors last computed.
+    #[must_use]
+    pub fn correction(&self) -> Correction {
+        self.correction_of(&self.residual)
+    }
+
+    fn correction_of(&self, residual: &Residual) -> Correction {
+        if self.sparse.is_some() {
+            return self.sparse_correction(residual);
+        }
+        let rhs = self.reduced(residual);
+        let last = self.chain.solve_last(&rhs.nodes.last);
+        self.expanded(rhs, &last)
+    }
+
+    /// The correction that gives each element another end: what its position, rotation and moment about the origin
+    /// are to change by, other residuals being zero.
+    #[must_use]
+    pub fn correction_for(&self, defects: Vec<[f64; 9]>) -> Correction {
+        let strains = vec![Strain::zeros(); self.mesh.stages()];
+        self.correction_of(&Residual { strains, gaps: defects, ..Residual::default() })
+    }
+
+    /// Eliminates the strains of a residual, then all nodes but the last.
+    fn reduced(&self, residual: &Residual) -> Rhs {
+        let s = self.mesh.gauss.degree;
+        let mut strains = vec![Strain::zeros(); self.mesh.stages()];
+        let mut rhs = Vec::with_capacity(self.layout.states().len() * self.mesh.elements());
+        for (i, gap) in residual.gaps.iter().enumerate() {
+            let own = i * s..(i + 1) * s;
+            let change = self.elements[i].solve(&residual.strains[own.clone()], &mut strains[own]);
+            self.join_gap(&mut rhs, i, gap, &change);
+        }
+        Rhs { strains, nodes: self.chain.reduce(&residual.start, &rhs, &residual.end) }
+    }
+
+    /// The right-hand side of the continuity of an element.
+    fn join_gap(&self, rhs: &mut Vec<f64>, i: usize, gap: &[f64; 9], change: &Change) {
+        let full = joined(gap, change, &self.anchors[i].turn, &self.units);
+        rhs.extend(self.layout.states().iter().map(|&state| match state {
+            0..6 => full[state],
+            6..9 => 0.0,
+            _ => full[state - 3],
+        }));
+    }
+
+    /// The correction of all from that of the last panel.
+    fn expanded(&self, rhs: Rhs, last: &[f64]) -> Correction {
+        let s = self.mesh.gauss.degree;
+        let changes = self.chain.expand(&rhs.nodes.kept, last);
+        let nodes = self.placed_nodes(&changes.states, &changes.constants);
+        let mut strains = rhs.strains;
+        for (i, (anchor, element)) in self.anchors.iter().zip(&self.elements).enumerate() {
+            let inputs = anchor.inputs(&nodes[i], &self.units);
+            element.respond(&inputs, &mut strains[i * s..(i + 1) * s]);
+        }
+        Correction { nodes, strains, slack: changes.slack }
+    }
+
+    /// Changes of all twelve at the nodes from those of states and constants.
+    fn placed_nodes(&self, states: &[f64], constants: &[f64]) -> Vec<[f64; 12]> {
+        let (n, m) = (self.layout.states().len(), self.layout.constants().len());
+        let node = |i: usize| {
+            let mut change = [0.0; 12];
+            for (&place, value) in self.layout.states().iter().zip(&states[i * n..]) {
+                change[place] = *value;
+            }
+            for (&place, value) in self.layout.constants().iter().zip(&constants[i * m..]) {
+                change[place] = *value;
+            }
+            change
+        };
+        (0..=self.mesh.elements()).map(node).collect()
+    }
+
+    fn sparse_correction(&self, residual: &Residual) -> Correction {
+        let mut rhs = Vec::new();
+        for (i, gap) in residual.gaps.iter().enumerate() {
+            self.join_gap(&mut rhs, i, gap, &Change::default());
+        }
+        let law: Vec<f64> = residual.strains.iter().flat_map(|c| (-c).data.0[0]).collect();
+        let solved =
+            self.sparse.as_ref().and_then(|sparse| sparse.solve(&residual.start, &law, &rhs, &residual.end));
+        let Some((changes, own)) = solved else {
+            // No correction, which no norm mistakes for small.
+            let nodes = vec![[f64::NAN; 12]; self.mesh.elements() + 1];
+            let strains = vec![Strain::zeros(); self.mesh.stages()];
+            return Correction { nodes, strains, slack: Default::default() };
+        };
+        let strains = own.chunks_exact(4).map(Strain::from_column_slice).collect();
+        let nodes = self.placed_nodes(&changes.states, &changes.constants);
+        Correction { nodes, strains, slack: changes.slack }
+    }
+
+    /// Borders the factors with a parameter, what it does to the residual, and the last node's part of a line that the
+    /// solutions of the equations cross.
+    pub(super) fn bordered(&self, by_parameter: Residual, across: Option<&Line>) -> Bordered {
+        if self.sparse.is_some() {
+            let kind = Kind::Sparse(self.correction_of(&by_parameter));
+            return Bordered { by_parameter, kind };
+        }
+        let rhs = self.reduced(&by_parameter);
+        let mut matrix = self.with_parameter(&rhs);
+        let size = matrix.nrows() - 1;
+        match across {
+            Some(line) => {
+                let last = &line.x.nodes[line.x.nodes.len() - 1];
+                let places = self.layout.states().iter().chain(self.layout.constants());
+                places.enumerate().for_each(|(i, &place)| matrix[(size, i)] = last[place]);
+                matrix[(size, size)] = line.t;
+            }
+            None => matrix[(size, size)] = 1.0,
+        }
+        Bordered { by_parameter, kind: Kind::Chain { by_parameter: rhs, factors: matrix.lu() } }
+    }
+
+    /// The last panel with the column of the parameter, and a row of zeros.
+    fn with_parameter(&self, by_parameter: &Rhs) -> DMatrix<f64> {
+        let last = self.chain.last();
+        let size = last.nrows();
+        let mut matrix = last.resize(size + 1, size + 1, 0.0);
+        by_parameter.nodes.last.iter().enumerate().for_each(|(i, value)| matrix[(i, size)] = -value);
+        matrix
+    }
+
+    /// A solution of the equations with a parameter, for the residual last evaluated.
+    pub(super) fn particular(&self, bordered: &Bordered) -> Line {
+        match &bordered.kind {
+            Kind::Sparse(_) => Line { x: self.correction(), t: 0.0 },
+            Kind::Chain { by_parameter, factors } => {
+                let rhs = self.reduced(&self.residual);
+                let size = rhs.nodes.last.len();
+                let mut y = DVector::zeros(size + 1);
+                y.rows_mut(0, size).copy_from_slice(&rhs.nodes.last);
+                factors.solve_mut(&mut y);
+                self.line(rhs, by_parameter, y.as_slice())
+            }
+        }
+    }
+
+    /// The direction of the line of solutions.
+    pub(super) fn direction(&self, bordered: &Bordered) -> Line {
+        match &bordered.kind {
+            Kind::Sparse(x) => Line { x: x.clone(), t: 1.0 },
+            Kind::Chain { by_parameter, factors } => {
+                let size = by_parameter.nodes.last.len();
+                let mut y = DVector::zeros(size + 1);
+                y[size] = 1.0;
+                factors.solve_mut(&mut y);
+                self.line(self.nothing(by_parameter), by_parameter, y.as_slice())
+            }
+        }
+    }
+
+    /// Directions in which the equations with a parameter are nearly singular, the most singular first: at a branch point of
+    /// multiplicity `m` there are `m + 1`.
+    pub(super) fn directions(&self, bordered: &Bordered, count: usize) -> Vec<Line> {
+        let Kind::Chain { by_parameter, .. } = &bordered.kind else { return Vec::new() };
+        let matrix = self.with_parameter(by_parameter);
+        if !matrix.iter().all(|x| x.is_finite()) {
+            return Vec::new();
+        }
+        let svd = matrix.svd(false, true);
+        let mut order: Vec<usize> = (0..svd.singular_values.len()).collect();
+        order.sort_by(|&i, &j| svd.singular_values[i].total_cmp(&svd.singular_values[j]));
+        let Some(v) = svd.v_t else { return Vec::new() };
+        let line = |&i: &usize| {
+            let y: Vec<f64> = v.row(i).iter().copied().collect();
+            self.line(self.nothing(by_parameter), by_parameter, &y)
+        };
+        order.iter().take(count).map(line).collect()
+    }
+
+    /// What the residual last evaluated changes by with the parameter, as the factors were bordered.
+    fn line(&self, mut rhs: Rhs, by_parameter: &Rhs, y: &[f64]) -> Line {
+        let (last, t) = y.split_at(y.len() - 1);
+        let t = t[0];
+        rhs.strains.iter_mut().zip(&by_parameter.strains).for_each(|(a, b)| *a += t * b);
+        rhs.nodes.kept.iter_mut().zip(&by_parameter.nodes.kept).for_each(|(a, b)| *a += t * b);
+        Line { x: self.expanded(rhs, last), t }
+    }
+
+    fn nothing(&self, like: &Rhs) -> Rhs {
+        let nodes =
+            Reduced { kept: vec![0.0; like.nodes.kept.len()], last: vec![0.0; like.nodes.last.len()] };
+        Rhs { strains: vec![Strain::zeros(); like.strains.len()], nodes }
+    }
+}
+
+impl Bordered {
+    /// The change of the residual with the parameter.
+    #[must_use]
+    pub(super) fn by_parameter(&self) -> &Residual {
+        &self.by_parameter
+    }
+}

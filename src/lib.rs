@@ -16,6 +16,7 @@
 //! growth-induced curvature and torsion*.
 
 pub mod boundary;
+pub mod continuation;
 pub mod equilibrium;
 pub mod frame;
 pub mod growth;

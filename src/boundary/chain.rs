@@ -251,13 +251,6 @@ impl Chain {
         norm * inverse
     }
 
-    /// Solves for right-hand sides at the start (6), of the elements (`n` each) and at the end.
-    #[must_use]
-    pub fn solve(&self, start: &[f64], elements: &[f64], end: &[f64]) -> Changes {
-        let Reduced { kept, last } = self.reduce(start, elements, end);
-        self.expand(&kept, &self.solve_last(&last))
-    }
-
     /// Solves the last panel.
     #[must_use]
     pub fn solve_last(&self, rhs: &[f64]) -> Vec<f64> {
@@ -268,7 +261,7 @@ impl Chain {
         last
     }
 
-    /// Eliminates right-hand sides but for the last panel.
+    /// Eliminates right-hand sides at the start (6), of the elements (`n` each) and at the end, but for the last panel.
     #[must_use]
     pub fn reduce(&self, start: &[f64], elements: &[f64], end: &[f64]) -> Reduced {
         let (n, stride) = (self.n, self.stride());
@@ -375,7 +368,8 @@ mod tests {
             chain.finish(&slice(&end), None);
             let rhs = numbers(size, 99);
             let split = 6 + count * n;
-            let found = chain.solve(&rhs[..6], &rhs[6..split], &rhs[split..]);
+            let Reduced { kept, last } = chain.reduce(&rhs[..6], &rhs[6..split], &rhs[split..]);
+            let found = chain.expand(&kept, &chain.solve_last(&last));
             let exact = matrix.lu().solve(&DVector::from_vec(rhs)).unwrap();
             for (x, y) in found.states.iter().zip(exact.iter()) {
                 assert!((x - y).abs() < 1e-11 * exact.amax(), "{n} {m}: {x} {y}");

@@ -36,17 +36,14 @@ struct Rhs {
 }
 
 /// The factors of the equations with a parameter.
-pub struct Bordered {
-    by_parameter: Residual,
-    kind: Kind,
-}
+pub struct Bordered(Kind);
 
 enum Kind {
     Chain {
         by_parameter: Rhs,
         factors: LU<f64, Dyn, Dyn>,
     },
-    /// The state at a unit of the parameter.
+    /// The change of the state with the parameter.
     Sparse(Correction),
 }
 
@@ -147,12 +144,12 @@ impl System {
 
     /// Borders the factors with a parameter, what it does to the residual, and the last node's part of a line that the
     /// solutions of the equations cross.
-    pub(super) fn bordered(&self, by_parameter: Residual, across: Option<&Line>) -> Bordered {
+    #[must_use]
+    pub fn bordered(&self, by_parameter: &Residual, across: Option<&Line>) -> Bordered {
         if self.sparse.is_some() {
-            let kind = Kind::Sparse(self.correction_of(&by_parameter));
-            return Bordered { by_parameter, kind };
+            return Bordered(Kind::Sparse(self.correction_of(by_parameter)));
         }
-        let rhs = self.reduced(&by_parameter);
+        let rhs = self.reduced(by_parameter);
         let mut matrix = self.with_parameter(&rhs);
         let size = matrix.nrows() - 1;
         match across {
@@ -164,7 +161,7 @@ impl System {
             }
             None => matrix[(size, size)] = 1.0,
         }
-        Bordered { by_parameter, kind: Kind::Chain { by_parameter: rhs, factors: matrix.lu() } }
+        Bordered(Kind::Chain { by_parameter: rhs, factors: matrix.lu() })
     }
 
     /// The last panel with the column of the parameter, and a row of zeros.
@@ -177,8 +174,9 @@ impl System {
     }
 
     /// A solution of the equations with a parameter, for the residual last evaluated.
-    pub(super) fn particular(&self, bordered: &Bordered) -> Line {
-        match &bordered.kind {
+    #[must_use]
+    pub fn particular(&self, bordered: &Bordered) -> Line {
+        match &bordered.0 {
             Kind::Sparse(_) => Line { x: self.correction(), t: 0.0 },
             Kind::Chain { by_parameter, factors } => {
                 let rhs = self.reduced(&self.residual);
@@ -192,8 +190,9 @@ impl System {
     }
 
     /// The direction of the line of solutions.
-    pub(super) fn direction(&self, bordered: &Bordered) -> Line {
-        match &bordered.kind {
+    #[must_use]
+    pub fn direction(&self, bordered: &Bordered) -> Line {
+        match &bordered.0 {
             Kind::Sparse(x) => Line { x: x.clone(), t: 1.0 },
             Kind::Chain { by_parameter, factors } => {
                 let size = by_parameter.nodes.last.len();
@@ -207,8 +206,9 @@ impl System {
 
     /// Directions in which the equations with a parameter are nearly singular, the most singular first: at a branch point of
     /// multiplicity `m` there are `m + 1`.
-    pub(super) fn directions(&self, bordered: &Bordered, count: usize) -> Vec<Line> {
-        let Kind::Chain { by_parameter, .. } = &bordered.kind else { return Vec::new() };
+    #[must_use]
+    pub fn directions(&self, bordered: &Bordered, count: usize) -> Vec<Line> {
+        let Kind::Chain { by_parameter, .. } = &bordered.0 else { return Vec::new() };
         let matrix = self.with_parameter(by_parameter);
         if !matrix.iter().all(|x| x.is_finite()) {
             return Vec::new();
@@ -237,13 +237,5 @@ impl System {
         let nodes =
             Reduced { kept: vec![0.0; like.nodes.kept.len()], last: vec![0.0; like.nodes.last.len()] };
         Rhs { strains: vec![Strain::zeros(); like.strains.len()], nodes }
-    }
-}
-
-impl Bordered {
-    /// The change of the residual with the parameter.
-    #[must_use]
-    pub(super) fn by_parameter(&self) -> &Residual {
-        &self.by_parameter
     }
 }

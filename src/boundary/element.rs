@@ -64,7 +64,9 @@ pub struct Span<'a> {
 }
 
 impl<'a> Span<'a> {
-    fn response(&self, stage: usize) -> &Response {
+    /// The law at a stage.
+    #[must_use]
+    pub fn response(&self, stage: usize) -> &Response {
         &self.responses[if self.responses.len() == 1 { 0 } else { stage }]
     }
 }
@@ -164,6 +166,12 @@ fn directors(q: &Quaternion<f64>) -> Matrix3<f64> {
 }
 
 impl Stages {
+    /// Derivatives of the law at the stages last evaluated.
+    #[must_use]
+    pub fn tangents(&self) -> &[Matrix4<f64>] {
+        &self.tangent
+    }
+
     /// The stages at these strains, and where the element ends.
     pub fn evaluate(&mut self, span: &Span<'_>, entry: &Entry, strains: &[Strain]) -> Exit {
         self.orient(span, entry, strains);

@@ -137,6 +137,19 @@ impl Correction {
         }
     }
 
+    /// The change on another mesh, joined by lines between nodes.
+    #[must_use]
+    pub fn on(&self, from: &Mesh, to: &Mesh) -> Self {
+        let node = |&s: &f64| {
+            let i = from.nodes.partition_point(|&node| node <= s).clamp(1, from.elements()) - 1;
+            let part = (s - from.nodes[i]) / from.length(i);
+            let (a, b) = (&self.nodes[i], &self.nodes[i + 1]);
+            std::array::from_fn(|k| a[k] + part * (b[k] - a[k]))
+        };
+        let strains = super::adapt::transferred_strains(&self.strains, from, to);
+        Self { nodes: to.nodes.iter().map(node).collect(), strains, slack: self.slack }
+    }
+
     /// Size: root mean square, over the length, of changes of position/L, angles, `eps` and `K L`.
     #[must_use]
     pub fn norm(&self, mesh: &Mesh) -> f64 {

@@ -37,28 +37,61 @@ impl Mesh {
     /// # Errors
     /// Where a section is refused.
     pub fn new(problem: &Arc<Problem>, nodes: Vec<f64>, degree: usize) -> Result<Self, InvalidInput> {
-        let gauss = Gauss::of(degree);
-        let mut points = vec![None; nodes.len()];
-        for point in &problem.points {
-            let node = nodes.partition_point(|&s| s < point.s);
-            let (force, moment) = points[node].unwrap_or((Vector::zeros(), Vector::zeros()));
-            points[node] = Some((force + point.force, moment + point.moment));
-        }
-        let problem = Arc::clone(problem);
-        let mut mesh = Self { problem, gauss, nodes, points, responses: Vec::new(), load: Vec::new() };
-        if !mesh.problem.law.varies() {
-            mesh.responses.push(mesh.problem.law.at(0.0)?);
-        } else if mesh.stages() <= KEPT_STAGES {
-            mesh.responses = (0..mesh.elements())
-                .flat_map(|i| mesh.places(i))
-                .map(|s| mesh.problem.law.at(s))
+        let (points, responses, load) = (Vec::new(), Vec::new(), Vec::new());
+        let mut mesh =
+            Self { problem: Arc::clone(problem), gauss: Gauss::of(degree), nodes, points, responses, load };
+        mesh.take_law()?;
+        mesh.take_loads();
+        Ok(mesh)
+    }
+
+    fn take_law(&mut self) -> Result<(), InvalidInput> {
+        self.responses.clear();
+        if !self.problem.law.varies() {
+            self.responses.push(self.problem.law.at(0.0)?);
+        } else if self.stages() <= KEPT_STAGES {
+            self.responses = (0..self.elements())
+                .flat_map(|i| self.places(i))
+                .map(|s| self.problem.law.at(s))
                 .collect::<Result<_, _>>()?;
         }
-        if mesh.problem.has_line_load() {
-            let places = (0..mesh.elements()).flat_map(|i| mesh.places(i));
-            mesh.load = places.map(|s| mesh.problem.line_load(s)).collect();
+        Ok(())
+    }
+
+    fn take_loads(&mut self) {
+        self.points.clear();
+        self.points.resize(self.nodes.len(), None);
+        for point in &self.problem.points {
+            let node = self.nodes.partition_point(|&s| s < point.s);
+            let (force, moment) = self.points[node].unwrap_or((Vector::zeros(), Vector::zeros()));
+            self.points[node] = Some((force + point.force, moment + point.moment));
         }
-        Ok(mesh)
+        self.load.clear();
+        if self.problem.has_line_load() {
+            let places = (0..self.elements()).flat_map(|i| self.places(i));
+            self.load = places.map(|s| self.problem.line_load(s)).collect();
+        }
+    }
+
+    /// The same elements, in proportion to its length, of another problem of the same kind.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    pub fn turn_to(&mut self, problem: &Arc<Problem>) -> Result<(), InvalidInput> {
+        if Arc::ptr_eq(&self.problem, problem) {
+            return Ok(());
+        }
+        let before = std::mem::replace(&mut self.problem, Arc::clone(problem));
+        if problem.length != before.length {
+            let factor = problem.length / before.length;
+            self.nodes.iter_mut().for_each(|s| *s = (*s * factor).min(problem.length));
+            self.nodes.last_mut().into_iter().for_each(|s| *s = problem.length);
+        }
+        if problem.length != before.length || !Arc::ptr_eq(&before.law, &problem.law) {
+            self.take_law()?;
+        }
+        self.take_loads();
+        Ok(())
     }
 
     /// Number of elements.

@@ -14,6 +14,7 @@
 //! | `transfer`, `chain`, `dense` | elimination of the nodes |
 //! | `sparse` | the same without elimination, by faer |
 //! | `mesh`, `iterate`, `system` | all elements: unknowns, residual, Jacobian |
+//! | `correct` | corrections, also with a parameter unknown |
 //! | `newton`, `known`, `path`, `arclength` | the nonlinear equations, from a known shape |
 //! | `step`, `adapt` | dense output, errors and meshes |
 //! | `check` | an independent residual |
@@ -49,6 +50,8 @@ mod symmetric;
 mod system;
 mod transfer;
 
+pub use adapt::{estimate, refined, transferred};
+pub use correct::{Bordered, Line};
 pub use ends::{At, End, Hold};
 pub use family::Family;
 pub use gauss::MAX_DEGREE;
@@ -60,5 +63,6 @@ pub use path::Path;
 pub use problem::{LineLoad, PointLoad, Problem};
 pub use report::{Report, Status};
 pub use solution::{SectionState, Solution, Wrench};
-pub use solve::{DEGREE, Settings};
-pub use system::{Failure, System, Targets};
+pub use solve::{DEGREE, Settings, goal};
+pub use step::Stepper;
+pub use system::{Failure, Residual, Sections, System, Targets};

@@ -2,7 +2,9 @@
 
 #![expect(clippy::neg_cmp_op_on_partial_ord, reason = "what is not a number fails every test")]
 
-use nalgebra::{Matrix3, Vector3};
+use std::sync::Arc;
+
+use nalgebra::{Matrix3, Matrix4, Vector3};
 
 use super::chain::{Border, Chain};
 use super::element::{Entry, Exit, Span, Stages};
@@ -10,6 +12,7 @@ use super::eliminated::Eliminated;
 use super::ends::{Condition, End, Units, conditions, half_angle};
 use super::iterate::{Iterate, Layout, settle};
 use super::mesh::Mesh;
+use super::problem::Problem;
 use super::sparse::{Blocks, Sparse};
 use super::stability::{Inertia, Place, inertia};
 use super::transfer::{Anchor, Flexibility, Rows, cayley, transfer};
@@ -45,19 +48,69 @@ pub struct System {
     pub(super) sparse: Option<Sparse>,
     /// Of the elements.
     transfers: Vec<Rows>,
-    pub(super) residual: Residual,
+    /// The residual last evaluated.
+    pub residual: Residual,
     load: Vec<(Vector, Vector)>,
     /// How often the Jacobian was factorised.
     pub factorisations: usize,
+    /// Of the stages where the equations were linearised.
+    pub sections: Sections,
 }
 
 /// The residual: of the law at the stages, of continuity, and minus that of the end conditions.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Residual {
+pub struct Residual {
+    /// Of the law, at the stages.
     pub strains: Vec<Strain>,
+    /// Of position, rotation, and moment about the origin, between elements.
     pub gaps: Vec<[f64; 9]>,
+    /// Minus that of the conditions at the start.
     pub start: [f64; 6],
+    /// Minus that of the conditions at the end.
     pub end: [f64; 6],
+}
+
+/// What the tangent stiffnesses of sections say of their stability.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sections {
+    /// The largest number of negative eigenvalues.
+    pub index: usize,
+    /// The least determinant, of the stiffness relative to that of the ungrown section; it changes sign with the first
+    /// eigenvalue.
+    pub least: f64,
+}
+
+impl Default for Sections {
+    fn default() -> Self {
+        Self { index: 0, least: f64::INFINITY }
+    }
+}
+
+impl Sections {
+    /// Takes a tangent stiffness into account, its rows times a compliance.
+    fn add(&mut self, tangent: &Matrix4<f64>, compliance: &Strain) {
+        // A rigid section is stable.
+        if compliance.min() == 0.0 {
+            return;
+        }
+        let scale = compliance.map(f64::sqrt);
+        let mut a = tangent.map_with_location(|i, k, x| x * scale[k] / scale[i]);
+        let (mut negative, mut determinant) = (0, 1.0);
+        // The stiffnesses in eps and K1 come first and are positive: no pivoting is needed.
+        for k in 0..4 {
+            let pivot = a[(k, k)];
+            negative += usize::from(pivot < 0.0);
+            determinant *= pivot;
+            for i in k + 1..4 {
+                let factor = a[(i, k)] / pivot;
+                for j in k + 1..4 {
+                    a[(i, j)] -= factor * a[(k, j)];
+                }
+            }
+        }
+        self.index = self.index.max(negative);
+        self.least = if determinant < self.least { determinant } else { self.least };
+    }
 }
 
 impl Residual {
@@ -134,7 +187,16 @@ impl System {
             residual: Residual::default(),
             load: Vec::new(),
             factorisations: 0,
+            sections: Sections::default(),
         })
+    }
+
+    /// Turns to another problem of the same kind, on the same mesh in proportion to its length, and keeps the factors.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    pub fn turn_to(&mut self, problem: &Arc<Problem>) -> Result<(), InvalidInput> {
+        self.mesh.turn_to(problem)
     }
 
     /// Evaluates the residual at `x`.
@@ -214,6 +276,7 @@ impl System {
         if pass != Pass::Residual {
             self.anchors.clear();
             self.transfers.clear();
+            self.sections = Sections::default();
             let start = self.placed(&start);
             match &mut self.sparse {
                 Some(sparse) => sparse.conditions(0, &start),
@@ -281,6 +344,9 @@ impl System {
         let exit = self.stages.evaluate(&span, &entry, strains);
         self.residual.strains.extend_from_slice(&self.stages.residual[..s]);
         if pass != Pass::Residual {
+            for (j, tangent) in self.stages.tangents().iter().enumerate().take(s) {
+                self.sections.add(tangent, &span.response(j).compliance);
+            }
             let element = &mut self.elements[i];
             self.stages.linearise(&span, &exit, strains, element);
             if pass == Pass::Condensed {

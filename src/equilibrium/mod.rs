@@ -18,5 +18,5 @@ mod second_order;
 
 pub use along::{TOLERANCE, natural_branches};
 pub use branch::{Event, EventKind, NaturalBranch};
-pub use natural::{Equilibrium, natural_shapes};
+pub use natural::{Balance, Equilibrium, balance, natural_shapes};
 pub use phase::{PHASE_TOLERANCE, Phase};

@@ -223,12 +223,13 @@ fn nearest(section: &Section, k: f64, twists: &[f64], simple: bool) -> Vec<Point
 }
 
 /// Gradient and Hessian of `Pi/eta^4` in `k`, `q` with `eps` and `K1` eliminated.
-struct Balance {
-    gradient: [f64; 2],
+pub struct Balance {
+    /// Derivatives in `k` and `q`.
+    pub gradient: [f64; 2],
     /// Sizes of the terms that cancel in the gradient.
     scale: [f64; 2],
     /// `kk, kq, qq`
-    hessian: [f64; 3],
+    pub hessian: [f64; 3],
 }
 
 impl Balance {
@@ -238,7 +239,8 @@ impl Balance {
     }
 
     /// Number of negative eigenvalues.
-    fn index(&self) -> usize {
+    #[must_use]
+    pub fn index(&self) -> usize {
         let [low, high] = self.eigenvalues();
         let tolerance = self.index_tolerance();
         usize::from(low < -tolerance) + usize::from(high < -tolerance)
@@ -255,7 +257,9 @@ impl Balance {
         low.abs().min(high.abs()) / low.abs().max(high.abs()).max(f64::MIN_POSITIVE)
     }
 
-    fn eigenvalues(&self) -> [f64; 2] {
+    /// The lesser first.
+    #[must_use]
+    pub fn eigenvalues(&self) -> [f64; 2] {
         let [kk, kq, qq] = self.hessian;
         let (mean, radius) = (0.5 * (kk + qq), (0.5 * (kk - qq)).hypot(kq));
         [mean - radius, mean + radius]
@@ -295,7 +299,9 @@ fn is_isolated(section: &Section, point: &Point) -> bool {
     soft.abs() > here.index_tolerance().max(0.5 * third.abs() * s + fourth.abs() * s * s / 6.0)
 }
 
-fn balance(section: &Section, k: f64, q: f64) -> Balance {
+/// The balance of a section at `k = K2/eta`, `q = K3/eta`.
+#[must_use]
+pub fn balance(section: &Section, k: f64, q: f64) -> Balance {
     let r = section.reduction();
     let (eta, g) = (section.eta(), r.material.twist);
     let relaxed = section.relaxation().derivatives(k * eta, Square::of(q * eta));

@@ -1,0 +1,361 @@
+//! A branch, from a point of it as far as it is asked for.
+
+use super::correct::{Corrected, Guess, Point, PointOf, corrected};
+use super::equations::{Direction, Equations, Failed, dot, scaled};
+use super::locate::special_points;
+use super::predict::weights;
+
+/// How far a branch is followed, and how well.
+#[derive(Clone, Debug)]
+pub struct Limits {
+    /// Steps.
+    pub steps: usize,
+    /// Error of a point, in the norm of states and in the parameter.
+    pub tolerance: f64,
+    /// The longest step.
+    pub longest: f64,
+    /// Values of the parameter that are met exactly, ascending.
+    pub values: Vec<f64>,
+    /// Asked now and then whether to stop.
+    pub interrupted: Option<fn() -> bool>,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { steps: 1000, tolerance: 1e-11, longest: 0.5, values: Vec::new(), interrupted: None }
+    }
+}
+
+/// Why a branch is not followed further.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ended {
+    /// It begins at a special point of another.
+    Switched,
+    /// It begins where it was asked to, and is not followed the other way.
+    Start,
+    /// The end of the range of the parameter.
+    Span,
+    /// So many steps as were allowed.
+    Steps,
+    /// It is closed.
+    Closed,
+    /// It meets a branch point that is known, beyond which it repeats itself.
+    Joined,
+    /// A section becomes unstable, and with it the equations singular.
+    Section,
+    /// No further equilibrium was found.
+    Failed(Failed),
+}
+
+impl Ended {
+    /// The name.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Switched => "branch point",
+            Self::Start => "start",
+            Self::Span => "span",
+            Self::Steps => "steps",
+            Self::Closed => "closed",
+            Self::Joined => "joined",
+            Self::Section => "section instability",
+            Self::Failed(Failed::Interrupted) => "interrupted",
+            Self::Failed(_) => "failed",
+        }
+    }
+}
+
+/// What is special about a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpecialKind {
+    /// The parameter turns back.
+    Fold,
+    /// Branches meet.
+    BranchPoint,
+    /// A section becomes unstable, or stable.
+    SectionInstability,
+    /// A value of the parameter that was asked for.
+    Value,
+}
+
+impl SpecialKind {
+    /// The name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fold => "fold",
+            Self::BranchPoint => "branch point",
+            Self::SectionInstability => "section instability",
+            Self::Value => "value",
+        }
+    }
+}
+
+/// A special point of a branch.
+#[derive(Clone, Debug)]
+pub struct Special {
+    /// What.
+    pub kind: SpecialKind,
+    /// Which of the branch's points.
+    pub place: usize,
+    /// By how much the index changes at a branch point, or that of sections.
+    pub multiplicity: usize,
+}
+
+/// A branch of equilibria.
+#[derive(Clone, Debug)]
+pub struct Branch<S, C> {
+    /// Its points, along it.
+    pub points: Vec<Point<S, C>>,
+    /// Those that are special, along it.
+    pub special: Vec<Special>,
+    /// How it ended: its beginning and its end.
+    pub ended: [Ended; 2],
+    /// The special point of another branch that it begins at: number of the branch, and of the special point there.
+    pub origin: Option<(usize, usize)>,
+    /// Whether its mirror image is a branch, too, which is not followed.
+    pub mirrored: bool,
+}
+
+/// The branch of a problem.
+pub type BranchOf<E> = Branch<<E as Equations>::State, <E as Equations>::Change>;
+
+/// The first step, and the error of a prediction that steps are made for.
+const FIRST_STEP: f64 = 0.02;
+const PREDICTION: f64 = 5e-3;
+/// An error of a prediction, and a cosine of the angle between tangents, that no step may have.
+const FAR: f64 = 8.0 * PREDICTION;
+const TURN: f64 = 0.7;
+/// A step that is too short.
+const SHORTEST: f64 = 1e-7;
+/// Tangents that a prediction uses.
+const MEMORY: usize = 4;
+/// Steps after which the mesh is looked at.
+const CHECKED: usize = 4;
+
+/// Follows the branch through a point along its tangent. `stop` tells whether a special point ends it.
+pub fn follow<E: Equations>(
+    equations: &mut E,
+    first: PointOf<E>,
+    limits: &Limits,
+    mut stop: impl FnMut(&mut E, &PointOf<E>, SpecialKind) -> bool,
+) -> BranchOf<E> {
+    let mut branch = Branch {
+        points: vec![first],
+        special: Vec::new(),
+        ended: [Ended::Start, Ended::Steps],
+        origin: None,
+        mirrored: false,
+    };
+    let mut step = branch.points[0].s.max(FIRST_STEP);
+    // How many of the last tangents predict the next point: those on this mesh, before any failure.
+    let mut memory = 1;
+    // The last point whose mesh is known to be fine enough, and how many steps ago that was.
+    let (mut fine, mut since) = (0, CHECKED);
+    let mut steps = 0;
+    let mut at_end = false;
+    loop {
+        if since >= CHECKED || at_end {
+            since = 0;
+            match verified(equations, &mut branch, fine, limits) {
+                Ok(true) => fine = branch.points.len() - 1,
+                Ok(false) => (memory, at_end) = (1, false),
+                Err(failed) => {
+                    branch.ended[1] = ended_by(branch.points.last(), failed);
+                    break;
+                }
+            }
+        }
+        if at_end {
+            branch.ended[1] = Ended::Span;
+            break;
+        }
+        if steps >= limits.steps {
+            break;
+        }
+        if limits.interrupted.is_some_and(|asks| asks()) {
+            branch.ended[1] = Ended::Failed(Failed::Interrupted);
+            break;
+        }
+        let next = match advanced(equations, &branch.points, memory, step, limits) {
+            Ok(next) => next,
+            Err(failed) => {
+                step *= 0.3;
+                memory = memory.min(2);
+                if step < SHORTEST || matches!(failed, Failed::Refused(_)) {
+                    branch.ended[1] = ended_by(branch.points.last(), failed);
+                    break;
+                }
+                continue;
+            }
+        };
+        (steps, since) = (steps + 1, since + 1);
+        let last = branch.points.len() - 1;
+        let mut stopped = false;
+        for found in special_points(equations, &branch.points[last], &next.point, limits) {
+            stopped = stop(equations, &found.point, found.kind);
+            let place = branch.points.len();
+            branch.points.push(found.point);
+            branch.special.push(Special { kind: found.kind, place, multiplicity: found.multiplicity });
+            if stopped {
+                break;
+            }
+        }
+        if stopped {
+            branch.ended[1] = Ended::Joined;
+            break;
+        }
+        // Special points between are too near for their tangents to tell more.
+        memory = if branch.points.len() > last + 1 { 1 } else { (memory + 1).min(MEMORY) };
+        at_end = next.at_end;
+        branch.points.push(next.point);
+        if is_closed(equations, &branch, last) {
+            branch.ended[1] = Ended::Closed;
+            break;
+        }
+        let factor = (PREDICTION / next.error.max(1e-12)).powf(1.0 / (next.order as f64 + 1.0));
+        step = (step * (0.9 * factor).clamp(0.3, 2.5)).min(limits.longest);
+    }
+    branch
+}
+
+struct Advanced<E: Equations> {
+    point: PointOf<E>,
+    order: usize,
+    error: f64,
+    at_end: bool,
+}
+
+/// The next point, a step away, or where the range of the parameter ends.
+fn advanced<E: Equations>(
+    equations: &mut E,
+    points: &[PointOf<E>],
+    memory: usize,
+    step: f64,
+    limits: &Limits,
+) -> Result<Advanced<E>, Failed> {
+    let known = &points[points.len() - memory.min(points.len())..];
+    let last = &points[points.len() - 1];
+    let predicted = |equations: &E, length: f64| {
+        let places: Vec<f64> = known.iter().map(|point| point.s).collect();
+        let weights = weights(&places, length);
+        let parts: Vec<_> = weights.iter().copied().zip(known.iter().map(|point| &point.along.x)).collect();
+        let change = equations.sum(&parts);
+        let t = last.t + weights.iter().zip(known).map(|(w, point)| w * point.along.t).sum::<f64>();
+        (equations.moved(&last.x, &change, 1.0), t)
+    };
+    let (x, t) = predicted(equations, step);
+    let outside = |t: f64| !(0.0..=1.0).contains(&t);
+    if outside(t) && (t - last.t) * last.along.t > 0.0 {
+        // To the end of the range, exactly.
+        let end = if t > 0.5 { 1.0 } else { 0.0 };
+        if last.t == end {
+            return Err(Failed::Jumped);
+        }
+        let mut length = step * (end - last.t) / (t - last.t);
+        let mut guess = predicted(equations, length);
+        for _ in 0..4 {
+            let slope = (guess.1 - last.t) / length;
+            length = (length + (end - guess.1) / slope).clamp(0.0, step);
+            guess = predicted(equations, length);
+        }
+        let guess = Guess { x: guess.0, t: end, across: None, sense: Some(&last.along) };
+        let Corrected { mut point, first } = corrected(equations, guess, limits.tolerance, false)?;
+        point.t = end;
+        near(equations, last, &point, first, length)?;
+        point.s = last.s + length;
+        return Ok(Advanced { point, order: known.len(), error: first, at_end: true });
+    }
+    let guess = Guess { x, t, across: Some(&last.along), sense: Some(&last.along) };
+    let Corrected { mut point, first } = corrected(equations, guess, limits.tolerance, false)?;
+    near(equations, last, &point, first, step)?;
+    if outside(point.t) {
+        // A shorter step meets the end.
+        return Err(Failed::Jumped);
+    }
+    point.s = last.s + step;
+    Ok(Advanced { point, order: known.len(), error: first, at_end: false })
+}
+
+/// Refuses a point that is not the next one.
+fn near<E: Equations>(
+    equations: &E,
+    last: &PointOf<E>,
+    point: &PointOf<E>,
+    first: f64,
+    step: f64,
+) -> Result<(), Failed> {
+    let turned = dot(equations, &last.along, &point.along);
+    if first > FAR.min(0.5 * step) || turned < TURN { Err(Failed::Jumped) } else { Ok(()) }
+}
+
+fn ended_by<S, C>(last: Option<&Point<S, C>>, failed: Failed) -> Ended {
+    // Equations are singular where a section is about to become unstable.
+    let soft = last.is_some_and(|point| point.stability.section_index == 0 && point.stability.section < 1e-3);
+    if soft && !matches!(failed, Failed::Interrupted | Failed::Refused(_)) {
+        Ended::Section
+    } else {
+        Ended::Failed(failed)
+    }
+}
+
+/// Looks at the mesh of the last point. If it is too coarse, all points since it was last found fine enough are dropped, and that one
+/// is put on the finer mesh.
+fn verified<E: Equations>(
+    equations: &mut E,
+    branch: &mut BranchOf<E>,
+    fine: usize,
+    limits: &Limits,
+) -> Result<bool, Failed> {
+    let last = &branch.points[branch.points.len() - 1];
+    let Some(finer) = equations.refined(&last.x, last.t)? else { return Ok(true) };
+    let point = &branch.points[fine];
+    let (x, along) = equations.remeshed(&point.x, &point.along.x, &finer, point.t)?;
+    let along = Direction { x: along, t: point.along.t };
+    let guess = Guess { x, t: point.t, across: Some(&along), sense: Some(&along) };
+    let mut again = corrected(equations, guess, limits.tolerance, true)?.point;
+    again.s = point.s;
+    branch.points.truncate(fine);
+    branch.points.push(again);
+    branch.special.retain(|special| special.place < fine);
+    Ok(false)
+}
+
+/// Whether the branch has come back to its first point.
+fn is_closed<E: Equations>(equations: &mut E, branch: &BranchOf<E>, last: usize) -> bool {
+    let (first, a, b) = (&branch.points[0], &branch.points[last], &branch.points[branch.points.len() - 1]);
+    if last < 4 || (first.t - a.t) * (first.t - b.t) > 0.0 {
+        return false;
+    }
+    let [here, there] = [first, b].map(|point| equations.invariants(&point.x, point.t));
+    let apart = here.iter().zip(&there).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let size = here.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+    let step = b.s - a.s;
+    apart < 2.0 * step * size.max(1.0) && dot(equations, &first.along, &b.along) > 0.5
+}
+
+/// The first point of a branch: the equilibrium at `t` near `x`.
+///
+/// # Errors
+/// If none is near.
+pub fn begin<E: Equations>(
+    equations: &mut E,
+    x: E::State,
+    t: f64,
+    limits: &Limits,
+) -> Result<PointOf<E>, Failed> {
+    let guess = Guess { x, t, across: None, sense: None };
+    let Corrected { mut point, first } = corrected(equations, guess, limits.tolerance, true)?;
+    if first > NEAR {
+        return Err(Failed::Jumped);
+    }
+    point.t = t;
+    // Toward greater parameters.
+    if point.along.t < 0.0 {
+        point.along = scaled(equations, &point.along, -1.0);
+    }
+    Ok(point)
+}
+
+/// A first correction above this was no equilibrium.
+const NEAR: f64 = 1e-4;

@@ -1,0 +1,160 @@
+//! What continuation is to know of a problem.
+
+use thiserror::Error;
+
+use crate::InvalidInput;
+
+/// A change of the state and of the parameter.
+#[derive(Clone, Debug)]
+pub struct Direction<C> {
+    /// Of the state.
+    pub x: C,
+    /// Of the parameter.
+    pub t: f64,
+}
+
+/// What is known of the stability of an equilibrium.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Stability {
+    /// Largest number of negative eigenvalues of the tangent stiffness of a section.
+    pub section_index: usize,
+    /// Smooth along a branch, negative where and only where a section is unstable.
+    pub section: f64,
+    /// Number of independent ways to lower the energy, where every section is stable and the loads have a potential.
+    pub index: Option<usize>,
+    /// Ascending; those that change sign vanish where the index changes.
+    pub modes: Vec<f64>,
+}
+
+impl Stability {
+    /// Whether the equilibrium is stable, if that is known.
+    #[must_use]
+    pub fn is_stable(&self) -> Option<bool> {
+        if self.section_index > 0 { Some(false) } else { self.index.map(|index| index == 0) }
+    }
+
+    /// Number of negative modes.
+    #[must_use]
+    pub fn negative_modes(&self) -> usize {
+        self.modes.iter().filter(|mode| **mode < 0.0).count()
+    }
+}
+
+/// Why a step cannot be made.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum Failed {
+    /// The linearised equations cannot be solved, or a number is not finite.
+    #[error("{0}")]
+    Equations(String),
+    /// Newton's method does not converge.
+    #[error("Newton's method does not converge: the last correction is {0:.1e}")]
+    Diverged(f64),
+    /// It converges to what is not near.
+    #[error("the next equilibrium is not near")]
+    Jumped,
+    /// A problem that is refused.
+    #[error(transparent)]
+    Refused(#[from] InvalidInput),
+    /// Asked to stop.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+/// Equations `F(x, t) = 0` of a state `x` and a parameter `t` from 0 to 1.
+pub trait Equations {
+    /// `x`.
+    type State: Clone;
+    /// A change of `x`: an element of a linear space.
+    type Change: Clone;
+
+    /// `x` changed by `factor` times a change.
+    fn moved(&self, x: &Self::State, change: &Self::Change, factor: f64) -> Self::State;
+
+    /// The sum of changes times factors.
+    fn sum(&self, parts: &[(f64, &Self::Change)]) -> Self::Change;
+
+    /// The scalar product of changes; its size is that of strains and angles.
+    fn dot(&self, a: &Self::Change, b: &Self::Change) -> f64;
+
+    /// Linearises at `(x, t)`, for solutions that lie across a direction; or at fixed `t`.
+    ///
+    /// # Errors
+    /// Where that cannot be.
+    fn linearise(
+        &mut self,
+        x: &Self::State,
+        t: f64,
+        across: Option<&Direction<Self::Change>>,
+    ) -> Result<(), Failed>;
+
+    /// Evaluates `F(x, t)`, near where it was linearised.
+    ///
+    /// # Errors
+    /// Where that cannot be.
+    fn evaluate(&mut self, x: &Self::State, t: f64) -> Result<(), Failed>;
+
+    /// A solution of the linearised equations for the residual last evaluated.
+    fn particular(&mut self) -> Direction<Self::Change>;
+
+    /// The line of such solutions.
+    fn line(&mut self) -> Direction<Self::Change>;
+
+    /// Directions in which the linearised equations are nearly singular, the most first.
+    fn kernel(&mut self, count: usize) -> Vec<Direction<Self::Change>>;
+
+    /// Stability at `(x, t)`, where the equations were linearised.
+    fn stability(&mut self, x: &Self::State, t: f64) -> Stability;
+
+    /// Numbers that are the same for mirror images, to tell equilibria apart.
+    fn invariants(&mut self, x: &Self::State, t: f64) -> Vec<f64>;
+
+    /// The state on a finer mesh, if the one it has, on which it was linearised, is too coarse.
+    ///
+    /// # Errors
+    /// Where that cannot be.
+    fn refined(&mut self, x: &Self::State, t: f64) -> Result<Option<Self::State>, Failed>;
+
+    /// The state, and a change of it, on the mesh of another.
+    ///
+    /// # Errors
+    /// Where that cannot be.
+    fn remeshed(
+        &mut self,
+        x: &Self::State,
+        change: &Self::Change,
+        like: &Self::State,
+        t: f64,
+    ) -> Result<(Self::State, Self::Change), Failed>;
+
+    /// The direction in which a section that becomes unstable at `(x, t)` gives way, the same all along, if the ribbon may.
+    fn section_direction(&mut self, x: &Self::State, t: f64) -> Option<Direction<Self::Change>>;
+}
+
+/// The scalar product of directions.
+pub fn dot<E: Equations + ?Sized>(equations: &E, a: &Direction<E::Change>, b: &Direction<E::Change>) -> f64 {
+    equations.dot(&a.x, &b.x) + a.t * b.t
+}
+
+/// The direction times a factor.
+pub fn scaled<E: Equations + ?Sized>(
+    equations: &E,
+    a: &Direction<E::Change>,
+    factor: f64,
+) -> Direction<E::Change> {
+    Direction { x: equations.sum(&[(factor, &a.x)]), t: factor * a.t }
+}
+
+/// The direction of unit length.
+pub fn unit<E: Equations + ?Sized>(equations: &E, a: &Direction<E::Change>) -> Direction<E::Change> {
+    scaled(equations, a, 1.0 / dot(equations, a, a).sqrt())
+}
+
+/// `a + factor b`.
+pub fn plus<E: Equations + ?Sized>(
+    equations: &E,
+    a: &Direction<E::Change>,
+    factor: f64,
+    b: &Direction<E::Change>,
+) -> Direction<E::Change> {
+    Direction { x: equations.sum(&[(1.0, &a.x), (factor, &b.x)]), t: a.t + factor * b.t }
+}

@@ -1,0 +1,353 @@
+//! A ribbon that is held and loaded: the boundary-value problem with one parameter.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use nalgebra::Vector3;
+
+use super::equations::{Direction, Equations, Failed, Stability};
+use crate::InvalidInput;
+use crate::boundary::{
+    Bordered, Correction, Failure, Family, Iterate, Line, Mesh, Problem, Stepper, System, estimate, goal,
+    refined, transferred,
+};
+use crate::section::Strain;
+
+/// A discrete equilibrium with its mesh.
+#[derive(Clone, Debug)]
+pub struct HeldState {
+    /// Ends of the elements, over the length.
+    pub nodes: Arc<Vec<f64>>,
+    /// The unknowns.
+    pub x: Iterate,
+}
+
+/// How often and how long, in seconds, a part of the work was done.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Spent {
+    /// How often.
+    pub times: usize,
+    /// Seconds.
+    pub seconds: f64,
+}
+
+impl Spent {
+    fn of<T>(&mut self, work: impl FnOnce() -> T) -> T {
+        let start = Instant::now();
+        let done = work();
+        self.times += 1;
+        self.seconds += start.elapsed().as_secs_f64();
+        done
+    }
+}
+
+/// The work of a continuation, by its parts.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Work {
+    /// Residual, Jacobian and elimination of elements and nodes.
+    pub linearised: Spent,
+    /// Residuals alone.
+    pub evaluated: Spent,
+    /// Solutions with the factors.
+    pub solved: Spent,
+    /// Stability indices.
+    pub index: Spent,
+    /// Estimates of the error and new meshes.
+    pub meshes: Spent,
+}
+
+/// The equations of a family of problems.
+pub struct Held {
+    family: Family,
+    /// The other parameter, if there are two.
+    pub other: f64,
+    degree: usize,
+    tolerance: f64,
+    at: Option<(f64, Arc<Problem>)>,
+    nodes: Arc<Vec<f64>>,
+    system: Option<System>,
+    bordered: Option<Bordered>,
+    /// What was done so far.
+    pub work: Work,
+}
+
+/// Change of the parameter by which the equations are differentiated: in twist, length and thickness they are not linear.
+const DIFFERENCE: f64 = 1e-7;
+/// Elements that are too many.
+const MOST_ELEMENTS: usize = 4000;
+/// Error that a finer mesh is made for, of the tolerance.
+const MARGIN: f64 = 0.02;
+
+impl From<Failure> for Failed {
+    fn from(failure: Failure) -> Self {
+        match failure {
+            Failure::Refused(refused) => Self::Refused(refused),
+            other => Self::Equations(other.to_string()),
+        }
+    }
+}
+
+impl Held {
+    /// The equations of a family, to a tolerance.
+    #[must_use]
+    pub fn new(family: Family, other: f64, degree: usize, tolerance: f64) -> Self {
+        let nodes = Arc::new(Vec::new());
+        Self {
+            family,
+            other,
+            degree,
+            tolerance,
+            at: None,
+            nodes,
+            system: None,
+            bordered: None,
+            work: Work::default(),
+        }
+    }
+
+    /// The problem at a parameter.
+    ///
+    /// # Errors
+    /// Where it is refused.
+    pub fn problem(&mut self, t: f64) -> Result<Arc<Problem>, InvalidInput> {
+        match &self.at {
+            Some((known, problem)) if *known == t => Ok(Arc::clone(problem)),
+            _ => {
+                let problem = self.family.at([t, self.other])?;
+                self.at = Some((t, Arc::clone(&problem)));
+                Ok(problem)
+            }
+        }
+    }
+
+    /// Ends of elements at a parameter, where the ribbon has this length.
+    #[must_use]
+    pub fn places(nodes: &[f64], length: f64) -> Vec<f64> {
+        let mut places: Vec<f64> = nodes.iter().map(|s| s * length).collect();
+        places.last_mut().into_iter().for_each(|s| *s = length);
+        places
+    }
+
+    /// The equations at a parameter, on the mesh of a state.
+    fn system(&mut self, x: &HeldState, t: f64) -> Result<&mut System, Failed> {
+        let problem = self.problem(t)?;
+        let known = Arc::ptr_eq(&self.nodes, &x.nodes);
+        match (self.system.take(), known) {
+            (Some(mut system), true) => {
+                system.turn_to(&problem)?;
+                Ok(self.system.insert(system))
+            }
+            (old, _) => {
+                let mesh = Mesh::new(&problem, Self::places(&x.nodes, problem.length), self.degree)?;
+                let mut system = System::new(mesh)?;
+                // Changes are measured by the same units all along.
+                if let Some(old) = old {
+                    system.units = old.units;
+                }
+                self.nodes = Arc::clone(&x.nodes);
+                Ok(self.system.insert(system))
+            }
+        }
+    }
+
+    fn evaluated(&mut self, x: &HeldState, t: f64) -> Result<(), Failed> {
+        let problem = self.problem(t)?;
+        let mut spent = self.work.evaluated;
+        let system = self.system(x, t)?;
+        let mut settled = x.x.clone();
+        system.settle(&mut settled, 1.0);
+        let done = spent.of(|| system.evaluate(&settled, &goal(&problem)));
+        self.work.evaluated = spent;
+        Ok(done?)
+    }
+}
+
+impl Equations for Held {
+    type State = HeldState;
+    type Change = Correction;
+
+    fn moved(&self, x: &HeldState, change: &Correction, factor: f64) -> HeldState {
+        let Some(system) = &self.system else { return x.clone() };
+        let mut moved = x.x.moved(change, factor, &system.units);
+        system.settle(&mut moved, 1.0);
+        HeldState { nodes: Arc::clone(&x.nodes), x: moved }
+    }
+
+    fn sum(&self, parts: &[(f64, &Correction)]) -> Correction {
+        let mut sum = parts[0].1.scaled(parts[0].0);
+        for (factor, part) in &parts[1..] {
+            sum = sum.plus(*factor, part);
+        }
+        sum
+    }
+
+    fn dot(&self, a: &Correction, b: &Correction) -> f64 {
+        self.system.as_ref().map_or(f64::NAN, |system| a.dot(b, &system.mesh))
+    }
+
+    fn linearise(
+        &mut self,
+        x: &HeldState,
+        t: f64,
+        across: Option<&Direction<Correction>>,
+    ) -> Result<(), Failed> {
+        let problem = self.problem(t)?;
+        let mut settled = x.x.clone();
+        let mut spent = self.work.linearised;
+        let system = self.system(x, t)?;
+        system.settle(&mut settled, 1.0);
+        spent.of(|| system.linearise_open(&settled, &goal(&problem)))?;
+        let here = system.residual.clone();
+        self.work.linearised = spent;
+        let before = self.at.take();
+        self.evaluated(x, t + DIFFERENCE)?;
+        self.at = before;
+        let system = self.system(x, t)?;
+        let mut slope = std::mem::replace(&mut system.residual, here);
+        slope.subtract(&system.residual, DIFFERENCE);
+        let across = across.map(|across| Line { x: across.x.clone(), t: across.t });
+        let bordered = system.bordered(&slope, across.as_ref());
+        self.bordered = Some(bordered);
+        Ok(())
+    }
+
+    fn evaluate(&mut self, x: &HeldState, t: f64) -> Result<(), Failed> {
+        self.evaluated(x, t)
+    }
+
+    fn particular(&mut self) -> Direction<Correction> {
+        self.solved(|system, bordered| system.particular(bordered))
+    }
+
+    fn line(&mut self) -> Direction<Correction> {
+        self.solved(|system, bordered| system.direction(bordered))
+    }
+
+    fn kernel(&mut self, count: usize) -> Vec<Direction<Correction>> {
+        let (Some(system), Some(bordered)) = (&self.system, &self.bordered) else { return Vec::new() };
+        let lines = system.directions(bordered, count);
+        lines.into_iter().map(|Line { x, t }| Direction { x, t }).collect()
+    }
+
+    fn stability(&mut self, x: &HeldState, _: f64) -> Stability {
+        let Some(system) = &self.system else { return Stability::default() };
+        let sections = system.sections;
+        let inertia = self.work.index.of(|| system.inertia(&x.x, 1.0));
+        let index =
+            if sections.index == 0 { inertia.as_ref().and_then(|inertia| inertia.index()) } else { None };
+        let modes = inertia.map_or_else(Vec::new, |inertia| inertia.last);
+        Stability { section_index: sections.index, section: sections.least.min(1e300), index, modes }
+    }
+
+    fn invariants(&mut self, x: &HeldState, _: f64) -> Vec<f64> {
+        let Some(system) = &self.system else { return Vec::new() };
+        let length = system.mesh.problem.length;
+        let weights = &system.mesh.gauss.weights;
+        let mut sums = vec![0.0; 4];
+        for (i, pair) in x.nodes.windows(2).enumerate() {
+            let strains = &x.x.strains[i * self.degree..(i + 1) * self.degree];
+            for (strain, weight) in strains.iter().zip(weights) {
+                for k in 0..4 {
+                    let scale = if k == 0 { 1.0 } else { length };
+                    sums[k] += (pair[1] - pair[0]) * weight * (scale * strain[k]).powi(2);
+                }
+            }
+        }
+        sums
+    }
+
+    fn refined(&mut self, x: &HeldState, t: f64) -> Result<Option<HeldState>, Failed> {
+        self.linearise(x, t, None)?;
+        let (tolerance, degree) = (self.tolerance, self.degree);
+        let system = self.system(x, t)?;
+        let mut spent = Spent::default();
+        let estimated = spent.of(|| estimate(system, &x.x, &[]))?;
+        let fine = estimated.error <= tolerance || system.mesh.elements() >= MOST_ELEMENTS;
+        self.work.meshes.times += 1;
+        self.work.meshes.seconds += spent.seconds;
+        if fine {
+            return Ok(None);
+        }
+        let system = self.system(x, t)?;
+        let problem = Arc::clone(&system.mesh.problem);
+        let nodes = refined(&system.mesh, &estimated, MARGIN * tolerance);
+        let finer = Mesh::new(&problem, nodes, degree)?;
+        let moved = transferred(&x.x, &system.mesh, &finer)?;
+        let nodes = finer.nodes.iter().map(|s| s / problem.length).collect();
+        Ok(Some(HeldState { nodes: Arc::new(nodes), x: moved }))
+    }
+
+    fn remeshed(
+        &mut self,
+        x: &HeldState,
+        change: &Correction,
+        like: &HeldState,
+        t: f64,
+    ) -> Result<(HeldState, Correction), Failed> {
+        let problem = self.problem(t)?;
+        let meshes = [x, like]
+            .map(|state| Mesh::new(&problem, Self::places(&state.nodes, problem.length), self.degree));
+        let [from, to] = meshes;
+        let (from, to) = (from?, to?);
+        let moved = transferred(&x.x, &from, &to)?;
+        Ok((HeldState { nodes: Arc::clone(&like.nodes), x: moved }, change.on(&from, &to)))
+    }
+
+    fn section_direction(&mut self, x: &HeldState, t: f64) -> Option<Direction<Correction>> {
+        let problem = self.problem(t).ok()?;
+        let mesh = Mesh::new(&problem, Self::places(&x.nodes, problem.length), self.degree).ok()?;
+        // Only where the strains are free to be the same all along.
+        if problem.law.varies()
+            || !x.x.nodes.iter().all(|at| at.force.norm() < 1e-9 && at.moment().norm() < 1e-9)
+        {
+            return None;
+        }
+        let strain = x.x.strains[0];
+        let soft = problem.law.at(0.0).ok()?.softest(&strain)?;
+        let size = soft.rows(1, 3).norm() * problem.length;
+        let soft = soft / size;
+        let turned = turned(&mesh, x, &(soft * TURN))?;
+        let units = self.system.as_ref()?.units;
+        let nodes = turned.iter().zip(&x.x.nodes).map(|(to, from)| {
+            let shift: Vector3<f64> = (to.position - from.position) / (units.length * TURN);
+            let turn = (to.rotation * from.rotation.conjugate()).imag() * (2.0 / TURN);
+            let mut change = [0.0; 12];
+            change[..3].copy_from_slice(shift.as_slice());
+            change[3..6].copy_from_slice(turn.as_slice());
+            change
+        });
+        let nodes = nodes.collect();
+        let strains = vec![soft; x.x.strains.len()];
+        Some(Direction { x: Correction { nodes, strains, slack: Default::default() }, t: 0.0 })
+    }
+}
+
+/// Radians by which a ribbon is bent or twisted to see where that leads.
+const TURN: f64 = 1e-6;
+
+/// The nodes of a ribbon whose strains change all along by the same, from its start.
+fn turned(mesh: &Mesh, x: &HeldState, by: &Strain) -> Option<Vec<crate::boundary::At>> {
+    let mut stepper = Stepper::new(&mesh.problem, mesh.gauss).ok()?;
+    let mut nodes = vec![x.x.nodes[0]];
+    for i in 0..mesh.elements() {
+        let strain = |c: f64| x.x.strain(mesh, i, c) + by;
+        let (at, _) = stepper.step(&nodes[i], mesh.nodes[i], mesh.length(i), strain, false).ok()?;
+        nodes.push(at);
+    }
+    Some(nodes)
+}
+
+impl Held {
+    fn solved(&mut self, solve: impl Fn(&System, &Bordered) -> Line) -> Direction<Correction> {
+        match (&self.system, &self.bordered) {
+            (Some(system), Some(bordered)) => {
+                let Line { x, t } = self.work.solved.of(|| solve(system, bordered));
+                Direction { x, t }
+            }
+            _ => Direction {
+                x: Correction { nodes: vec![], strains: vec![], slack: [f64::NAN; 2] },
+                t: f64::NAN,
+            },
+        }
+    }
+}

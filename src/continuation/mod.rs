@@ -1,0 +1,30 @@
+//! Continuation: how equilibria change with a parameter, where they lose stability, and what branches off.
+//!
+//! Solutions of `F(x, t) = 0` form curves, followed by their arclength (Keller 1977). One implementation serves the section of a
+//! ribbon that hangs free, two equations, and the boundary-value problem: what they have in common is [`Equations`].
+//!
+//! | file | role |
+//! |---|---|
+//! | `equations` | what is to be known of a problem |
+//! | `natural`, `held` | a free section, and a ribbon that is held and loaded |
+//! | `predict`, `correct` | a step along a branch |
+//! | `branch` | a branch, as far as it is asked for |
+//! | `locate` | special points between two points of a branch |
+//! | `switch`, `diagram` | what branches off, and all branches that hang together |
+
+mod branch;
+mod correct;
+mod diagram;
+mod equations;
+mod held;
+mod locate;
+mod natural;
+mod predict;
+mod switch;
+
+pub use branch::{Branch, Ended, Limits, Special, SpecialKind, begin};
+pub use correct::Point;
+pub use diagram::{Diagram, diagram};
+pub use equations::{Direction, Equations, Stability};
+pub use held::{Held, HeldState, Spent, Work};
+pub use natural::{Natural, NaturalFamily};

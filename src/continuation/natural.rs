@@ -1,0 +1,200 @@
+//! A ribbon that hangs free and is the same all along: two equations in `k = K2/eta` and `q = K3/eta`.
+
+use std::sync::Arc;
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::equations::{Direction, Equations, Failed, Stability};
+use crate::InvalidInput;
+use crate::equilibrium::{Balance, balance};
+use crate::section::{RibbonLaw, RibbonSpec, Station};
+
+/// Ribbons between ribbons: those of a parameter from 0 to 1, or of two.
+#[derive(Clone, Debug)]
+pub struct NaturalFamily {
+    corners: Vec<RibbonSpec>,
+    linear: bool,
+}
+
+impl NaturalFamily {
+    /// The family between two ribbons that differ in amplitudes of growth and dimensions alone.
+    ///
+    /// # Errors
+    /// If anything else differs, or they vary along their length.
+    pub fn new(corners: [RibbonSpec; 2]) -> Result<Self, InvalidInput> {
+        if !corners[0].is_like(&corners[1]) {
+            let expected = "ribbons that differ in amplitudes of growth and dimensions alone";
+            return Err(InvalidInput::new("corners", "different kinds", expected));
+        }
+        for corner in &corners {
+            if RibbonLaw::new(corner.clone())?.varies() {
+                return Err(InvalidInput::new(
+                    "corners",
+                    "varying ribbons",
+                    "ribbons that are the same all along",
+                ));
+            }
+        }
+        let [a, b] = &corners;
+        let linear = a.eta == b.eta && a.width == b.width && a.thickness == b.thickness;
+        Ok(Self { corners: corners.into(), linear })
+    }
+
+    /// The section at a parameter.
+    ///
+    /// # Errors
+    /// Where it is refused.
+    pub fn station(&self, t: f64) -> Result<Arc<Station>, InvalidInput> {
+        let others: Vec<_> = self.corners[1..].iter().map(|corner| (t, corner)).collect();
+        RibbonLaw::new(RibbonSpec::blend(&self.corners[0], &others)?)?.station(0.0)
+    }
+}
+
+/// The equations of a free section.
+pub struct Natural {
+    family: NaturalFamily,
+    at: Option<(f64, Arc<Station>)>,
+    residual: [f64; 2],
+    /// Derivatives of the residual in `k`, `q`, `t`.
+    rows: [Vector3<f64>; 2],
+    across: Vector3<f64>,
+    balance: Option<Balance>,
+}
+
+/// Change of the parameter by which the equations are differentiated, where they are linear in it and where not.
+const DIFFERENCE: [f64; 2] = [1e-7, 1e-3];
+
+impl Natural {
+    /// The equations of a family.
+    #[must_use]
+    pub fn new(family: NaturalFamily) -> Self {
+        Self {
+            family,
+            at: None,
+            residual: [0.0; 2],
+            rows: [Vector3::zeros(); 2],
+            across: Vector3::z(),
+            balance: None,
+        }
+    }
+
+    /// The section at a parameter.
+    ///
+    /// # Errors
+    /// Where it is refused.
+    pub fn station(&mut self, t: f64) -> Result<Arc<Station>, InvalidInput> {
+        match &self.at {
+            Some((known, station)) if *known == t => Ok(Arc::clone(station)),
+            _ => {
+                let station = self.family.station(t)?;
+                self.at = Some((t, Arc::clone(&station)));
+                Ok(station)
+            }
+        }
+    }
+
+    fn balance(&mut self, x: &[f64; 2], t: f64) -> Result<Balance, Failed> {
+        Ok(balance(self.station(t)?.section(), x[0], x[1]))
+    }
+}
+
+impl Equations for Natural {
+    type State = [f64; 2];
+    type Change = [f64; 2];
+
+    fn moved(&self, x: &[f64; 2], change: &[f64; 2], factor: f64) -> [f64; 2] {
+        [x[0] + factor * change[0], x[1] + factor * change[1]]
+    }
+
+    fn sum(&self, parts: &[(f64, &[f64; 2])]) -> [f64; 2] {
+        parts.iter().fold([0.0; 2], |sum, (factor, part)| self.moved(&sum, part, *factor))
+    }
+
+    fn dot(&self, a: &[f64; 2], b: &[f64; 2]) -> f64 {
+        a[0] * b[0] + a[1] * b[1]
+    }
+
+    fn linearise(
+        &mut self,
+        x: &[f64; 2],
+        t: f64,
+        across: Option<&Direction<[f64; 2]>>,
+    ) -> Result<(), Failed> {
+        let step = DIFFERENCE[usize::from(self.family.linear)];
+        let beside = self.family.station(t + step)?;
+        let beside = balance(beside.section(), x[0], x[1]).gradient;
+        let here = self.balance(x, t)?;
+        let [kk, kq, qq] = here.hessian;
+        let slope = |i: usize| (beside[i] - here.gradient[i]) / step;
+        self.rows = [Vector3::new(kk, kq, slope(0)), Vector3::new(kq, qq, slope(1))];
+        self.residual = here.gradient;
+        self.balance = Some(here);
+        self.across = across.map_or(Vector3::z(), |across| Vector3::new(across.x[0], across.x[1], across.t));
+        Ok(())
+    }
+
+    fn evaluate(&mut self, x: &[f64; 2], t: f64) -> Result<(), Failed> {
+        self.residual = self.balance(x, t)?.gradient;
+        Ok(())
+    }
+
+    fn particular(&mut self) -> Direction<[f64; 2]> {
+        let matrix = Matrix3::from_rows(&[
+            self.rows[0].transpose(),
+            self.rows[1].transpose(),
+            self.across.transpose(),
+        ]);
+        let rhs = Vector3::new(-self.residual[0], -self.residual[1], 0.0);
+        let solution = matrix.lu().solve(&rhs).unwrap_or(Vector3::repeat(f64::NAN));
+        Direction { x: [solution.x, solution.y], t: solution.z }
+    }
+
+    fn line(&mut self) -> Direction<[f64; 2]> {
+        let [a, b] = self.rows.map(|row| row / row.norm().max(f64::MIN_POSITIVE));
+        let line = a.cross(&b);
+        Direction { x: [line.x, line.y], t: line.z }
+    }
+
+    fn kernel(&mut self, count: usize) -> Vec<Direction<[f64; 2]>> {
+        let matrix = Matrix3::from_rows(&[
+            self.rows[0].transpose(),
+            self.rows[1].transpose(),
+            Vector3::zeros().transpose(),
+        ]);
+        let svd = matrix.svd(false, true);
+        let Some(v) = svd.v_t else { return Vec::new() };
+        let mut order = [0, 1, 2];
+        order.sort_by(|&i, &k| svd.singular_values[i].total_cmp(&svd.singular_values[k]));
+        let direction = |&i: &usize| Direction { x: [v[(i, 0)], v[(i, 1)]], t: v[(i, 2)] };
+        order.iter().take(count).map(direction).collect()
+    }
+
+    fn stability(&mut self, _: &[f64; 2], _: f64) -> Stability {
+        let Some(balance) = &self.balance else { return Stability::default() };
+        // The ends are free: what the section does decides.
+        let modes = balance.eigenvalues().to_vec();
+        Stability { section_index: 0, section: 1.0, index: Some(balance.index()), modes }
+    }
+
+    fn invariants(&mut self, x: &[f64; 2], _: f64) -> Vec<f64> {
+        vec![x[0] * x[0], x[1] * x[1]]
+    }
+
+    fn refined(&mut self, _: &[f64; 2], _: f64) -> Result<Option<[f64; 2]>, Failed> {
+        Ok(None)
+    }
+
+    fn remeshed(
+        &mut self,
+        x: &[f64; 2],
+        change: &[f64; 2],
+        _: &[f64; 2],
+        _: f64,
+    ) -> Result<([f64; 2], [f64; 2]), Failed> {
+        Ok((*x, *change))
+    }
+
+    fn section_direction(&mut self, _: &[f64; 2], _: f64) -> Option<Direction<[f64; 2]>> {
+        None
+    }
+}

@@ -4,13 +4,15 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 
+use super::adapt::estimate;
+use super::check;
 use super::ends::{At, Hold, directors};
 use super::gauss::Gauss;
 use super::iterate::Iterate;
 use super::known::Guess;
 use super::mesh::Mesh;
 use super::problem::Problem;
-use super::report::Report;
+use super::report::{Report, Status};
 use super::solve::{Settings, goal, solve};
 use super::step::{Stepper, pointwise};
 use super::system::System;
@@ -67,6 +69,54 @@ impl SectionState {
     }
 }
 
+/// Energies of a whole ribbon.
+#[derive(Clone, Copy, Debug)]
+pub struct Energies {
+    /// Of its sections.
+    pub elastic: f64,
+    /// Minus the work of dead forces, on displacements from the origin.
+    pub load: f64,
+}
+
+/// The energies of a discrete solution.
+///
+/// # Errors
+/// Where a section is refused.
+pub fn energies(mesh: &Mesh, x: &Iterate) -> Result<Energies, InvalidInput> {
+    let (problem, degree) = (&mesh.problem, mesh.gauss.degree);
+    let (mut elastic, mut load) = (0.0, 0.0);
+    let mut stepper = Stepper::new(problem, mesh.gauss)?;
+    for i in 0..mesh.elements() {
+        let mut made = Vec::new();
+        let responses = mesh.responses(i, &mut made)?;
+        let (s, h) = (mesh.nodes[i], mesh.length(i));
+        for (j, &c) in mesh.gauss.nodes.iter().enumerate() {
+            let response = &responses[if responses.len() == 1 { 0 } else { j }];
+            let strain = x.strains[i * degree + j];
+            let weight = h * mesh.gauss.weights[j];
+            // A stage is as accurate as the polynomial: what follows is not more.
+            let resultants = response.value_alone(&strain);
+            let resultants =
+                resultants.zip_map(&response.compliance, |v, c| if c > 0.0 { v / c } else { 0.0 });
+            elastic += weight * response.energy(&strain, &resultants);
+            if problem.has_line_force() {
+                let strains = |y: f64| x.strain(mesh, i, c * y);
+                let (at, _) = stepper.step(&x.nodes[i], s, c * h, strains, false)?;
+                load -= weight * problem.line_load(s + c * h).0.dot(&at.position);
+            }
+        }
+        if let Some((force, _)) = mesh.points[i + 1] {
+            load -= force.dot(&x.nodes[i + 1].position);
+        }
+    }
+    for (end, at) in problem.ends.iter().zip([&x.nodes[0], &x.nodes[x.nodes.len() - 1]]) {
+        if matches!(end.hold, Hold::Free | Hold::Sliding(_)) {
+            load -= end.force.dot(&at.position);
+        }
+    }
+    Ok(Energies { elastic, load })
+}
+
 impl Solution {
     /// Solves the problem; [`Report::status`] tells how it ended.
     ///
@@ -115,10 +165,10 @@ impl Solution {
             return Err(InvalidInput::new("parts", found, "a state a node and `degree` strains an element"));
         }
         let mesh = Mesh::new(&problem, nodes.clone(), degree)?;
-        let (mut energy, mut load_potential, mut section_index) = (0.0, 0.0, 0);
-        let mut stepper = Stepper::new(&problem, mesh.gauss)?;
-        for (at, (s, i)) in x.nodes.iter().zip(mesh.nodes.iter().zip(0..)) {
-            let i: usize = (i as usize).min(mesh.elements() - 1);
+        let Energies { elastic: energy, load: load_potential } = energies(&mesh, &x)?;
+        let mut section_index = 0;
+        for (at, (s, i)) in x.nodes.iter().zip(mesh.nodes.iter().zip(0_usize..)) {
+            let i = i.min(mesh.elements() - 1);
             let response = problem.law.at(*s)?;
             let guess = x.strain(&mesh, i, (s - mesh.nodes[i]) / mesh.length(i));
             let strain = pointwise(&response, &SectionState::resultants(at), guess);
@@ -127,30 +177,10 @@ impl Solution {
         for i in 0..mesh.elements() {
             let mut made = Vec::new();
             let responses = mesh.responses(i, &mut made)?;
-            let (s, h) = (mesh.nodes[i], mesh.length(i));
-            for (j, &c) in mesh.gauss.nodes.iter().enumerate() {
-                let response = &responses[if responses.len() == 1 { 0 } else { j }];
-                let strain = x.strains[i * degree + j];
-                let weight = h * mesh.gauss.weights[j];
-                // A stage is as accurate as the polynomial: what follows is not more.
-                let resultants = response.value_alone(&strain);
-                let resultants =
-                    resultants.zip_map(&response.compliance, |v, c| if c > 0.0 { v / c } else { 0.0 });
-                energy += weight * response.energy(&strain, &resultants);
-                section_index = section_index.max(response.index(&strain));
-                if problem.has_line_force() {
-                    let strains = |y: f64| x.strain(&mesh, i, c * y);
-                    let (at, _) = stepper.step(&x.nodes[i], s, c * h, strains, false)?;
-                    load_potential -= weight * problem.line_load(s + c * h).0.dot(&at.position);
-                }
-            }
-            if let Some((force, _)) = mesh.points[i + 1] {
-                load_potential -= force.dot(&x.nodes[i + 1].position);
-            }
-        }
-        for (end, at) in problem.ends.iter().zip([&x.nodes[0], &x.nodes[count - 1]]) {
-            if matches!(end.hold, Hold::Free | Hold::Sliding(_)) {
-                load_potential -= end.force.dot(&at.position);
+            let strains = &x.strains[i * degree..(i + 1) * degree];
+            // A uniform ribbon has one law for all stages.
+            for (response, strain) in responses.iter().cycle().zip(strains) {
+                section_index = section_index.max(response.index(strain));
             }
         }
         let index = if section_index == 0 && report.fraction == 1.0 {
@@ -159,6 +189,41 @@ impl Solution {
             None
         };
         Ok(Self { problem, degree, nodes, x, report, energy, load_potential, section_index, index })
+    }
+
+    /// A solution that was found otherwise, with its error and its residual.
+    ///
+    /// # Errors
+    /// Where a section is refused, or the equations are singular.
+    pub fn found(
+        problem: Arc<Problem>,
+        degree: usize,
+        nodes: Vec<f64>,
+        x: Iterate,
+    ) -> Result<Self, InvalidInput> {
+        let mesh = Mesh::new(&problem, nodes.clone(), degree)?;
+        let residual = check::residual(&mesh, &x)?;
+        let mut system = System::new(mesh)?;
+        // Where the equations are singular the error is not known.
+        let error = match system.linearise(&x, &goal(&problem)) {
+            Ok(()) => estimate(&mut system, &x, &[])?.error,
+            Err(_) => f64::INFINITY,
+        };
+        let condition = system.condition();
+        let report = Report {
+            status: Status::Converged,
+            reason: String::new(),
+            fraction: 1.0,
+            error,
+            residual,
+            condition,
+            iterations: 0,
+            factorisations: 0,
+            meshes: 1,
+            load_steps: 0,
+            norms: Vec::new(),
+        };
+        Self::from_parts(problem, degree, nodes, x, report)
     }
 
     /// The problem.

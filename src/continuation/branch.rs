@@ -2,7 +2,7 @@
 
 use super::correct::{Corrected, Guess, Point, PointOf, corrected};
 use super::equations::{Direction, Equations, Failed, dot, scaled};
-use super::locate::special_points;
+use super::locate::{Found, special_points};
 use super::predict::weights;
 
 /// How far a branch is followed, and how well.
@@ -192,7 +192,16 @@ pub fn follow<E: Equations>(
         (steps, since) = (steps + 1, since + 1);
         let last = branch.points.len() - 1;
         let mut stopped = false;
-        for found in special_points(equations, &branch.points[last], &next.point, limits) {
+        let found = special_points(equations, &branch.points[last], &next.point, limits);
+        if let Some(finer) = found.iter().find_map(|found| unresolved(equations, found, limits)) {
+            if let Err(failed) = restart(equations, &mut branch, fine, &finer, limits) {
+                branch.ended[1] = ended_by(branch.points.last(), failed);
+                break;
+            }
+            (memory, since) = (1, CHECKED);
+            continue;
+        }
+        for found in found {
             stopped = stop(equations, &found.point, found.kind);
             let place = branch.points.len();
             branch.points.push(found.point);
@@ -236,7 +245,7 @@ fn advanced<E: Equations>(
 ) -> Result<Advanced<E>, Failed> {
     let known = &points[points.len() - memory.min(points.len())..];
     let last = &points[points.len() - 1];
-    let predicted = |equations: &E, length: f64| {
+    let predicted = |equations: &mut E, length: f64| {
         let places: Vec<f64> = known.iter().map(|point| point.s).collect();
         let weights = weights(&places, length);
         let parts: Vec<_> = weights.iter().copied().zip(known.iter().map(|point| &point.along.x)).collect();
@@ -309,8 +318,20 @@ fn verified<E: Equations>(
 ) -> Result<bool, Failed> {
     let last = &branch.points[branch.points.len() - 1];
     let Some(finer) = equations.refined(&last.x, last.t)? else { return Ok(true) };
+    restart(equations, branch, fine, &finer, limits)?;
+    Ok(false)
+}
+
+/// Drops all points after one, and puts that on another mesh.
+fn restart<E: Equations>(
+    equations: &mut E,
+    branch: &mut BranchOf<E>,
+    fine: usize,
+    like: &E::State,
+    limits: &Limits,
+) -> Result<(), Failed> {
     let point = &branch.points[fine];
-    let (x, along) = equations.remeshed(&point.x, &point.along.x, &finer, point.t)?;
+    let (x, along) = equations.remeshed(&point.x, &point.along.x, like, point.t)?;
     let along = Direction { x: along, t: point.along.t };
     let guess = Guess { x, t: point.t, across: Some(&along), sense: Some(&along) };
     let mut again = corrected(equations, guess, limits.tolerance, true)?.point;
@@ -318,8 +339,27 @@ fn verified<E: Equations>(
     branch.points.truncate(fine);
     branch.points.push(again);
     branch.special.retain(|special| special.place < fine);
-    Ok(false)
+    Ok(())
 }
+
+/// The state at a branch point on a mesh twice as fine, if that moves the point: a straight ribbon is exact on any mesh, but not the
+/// shape into which it buckles.
+fn unresolved<E: Equations>(equations: &mut E, found: &Found<E>, limits: &Limits) -> Option<E::State> {
+    let Found { point, kind: SpecialKind::BranchPoint, slope: Some((mode, slope)), .. } = found else {
+        return None;
+    };
+    let finer = equations.doubled(&point.x, point.t).ok()??;
+    let (x, along) = equations.remeshed(&point.x, &point.along.x, &finer, point.t).ok()?;
+    let along = Direction { x: along, t: point.along.t };
+    let guess = Guess { x, t: point.t, across: Some(&along), sense: Some(&along) };
+    let there = corrected(equations, guess, limits.tolerance, true).ok()?.point;
+    let [here, there] = [point, &there].map(|point| point.stability.modes().get(*mode).copied());
+    let moved = (there? - here?) / slope;
+    (moved.abs() > MOVED).then_some(finer)
+}
+
+/// By how much a finer mesh may move a branch point.
+const MOVED: f64 = 2e-11;
 
 /// Whether the branch has come back to its first point.
 fn is_closed<E: Equations>(equations: &mut E, branch: &BranchOf<E>, last: usize) -> bool {
@@ -331,7 +371,9 @@ fn is_closed<E: Equations>(equations: &mut E, branch: &BranchOf<E>, last: usize)
     let apart = here.iter().zip(&there).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let size = here.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
     let step = b.s - a.s;
-    apart < 2.0 * step * size.max(1.0) && dot(equations, &first.along, &b.along) > 0.5
+    // Tangents on different meshes are not compared.
+    let backward = dot(equations, &first.along, &b.along) < 0.5;
+    apart < 2.0 * step * size.max(1.0) && !backward
 }
 
 /// The first point of a branch: the equilibrium at `t` near `x`.

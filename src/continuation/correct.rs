@@ -1,7 +1,5 @@
 //! Newton's method across a branch: to the point of it in a plane.
 
-#![expect(clippy::neg_cmp_op_on_partial_ord, reason = "what is not a number fails every test")]
-
 use super::equations::{Direction, Equations, Failed, Stability, dot, plus, scaled, unit};
 
 /// An equilibrium on a branch.

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::InvalidInput;
+use crate::boundary::Inertia;
 
 /// A change of the state and of the parameter.
 #[derive(Clone, Debug)]
@@ -22,8 +23,20 @@ pub struct Stability {
     pub section: f64,
     /// Number of independent ways to lower the energy, where every section is stable and the loads have a potential.
     pub index: Option<usize>,
-    /// Ascending; those that change sign vanish where the index changes.
-    pub modes: Vec<f64>,
+    /// What the index changes with.
+    pub pivot: Pivot,
+}
+
+/// A symmetric matrix an eigenvalue of which vanishes where the index changes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Pivot {
+    /// It is not known.
+    #[default]
+    None,
+    /// By its eigenvalues, ascending.
+    Modes([f64; 2]),
+    /// The last pivot of a chain.
+    Chain(Box<Inertia>),
 }
 
 impl Stability {
@@ -33,10 +46,14 @@ impl Stability {
         if self.section_index > 0 { Some(false) } else { self.index.map(|index| index == 0) }
     }
 
-    /// Number of negative modes.
+    /// Eigenvalues that are smooth along a branch, ascending: those that change sign vanish where the index changes.
     #[must_use]
-    pub fn negative_modes(&self) -> usize {
-        self.modes.iter().filter(|mode| **mode < 0.0).count()
+    pub fn modes(&self) -> Vec<f64> {
+        match &self.pivot {
+            Pivot::None => Vec::new(),
+            Pivot::Modes(modes) => modes.to_vec(),
+            Pivot::Chain(inertia) => inertia.modes(),
+        }
     }
 }
 
@@ -68,12 +85,12 @@ pub trait Equations {
     type Change: Clone;
 
     /// `x` changed by `factor` times a change.
-    fn moved(&self, x: &Self::State, change: &Self::Change, factor: f64) -> Self::State;
+    fn moved(&mut self, x: &Self::State, change: &Self::Change, factor: f64) -> Self::State;
 
     /// The sum of changes times factors.
     fn sum(&self, parts: &[(f64, &Self::Change)]) -> Self::Change;
 
-    /// The scalar product of changes; its size is that of strains and angles.
+    /// The scalar product of changes on the mesh of the state last used; its size is that of strains and angles.
     fn dot(&self, a: &Self::Change, b: &Self::Change) -> f64;
 
     /// Linearises at `(x, t)`, for solutions that lie across a direction; or at fixed `t`.
@@ -113,6 +130,12 @@ pub trait Equations {
     /// # Errors
     /// Where that cannot be.
     fn refined(&mut self, x: &Self::State, t: f64) -> Result<Option<Self::State>, Failed>;
+
+    /// The state on a mesh twice as fine, if it has one.
+    ///
+    /// # Errors
+    /// Where that cannot be.
+    fn doubled(&mut self, x: &Self::State, t: f64) -> Result<Option<Self::State>, Failed>;
 
     /// The state, and a change of it, on the mesh of another.
     ///

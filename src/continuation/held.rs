@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use nalgebra::Vector3;
 
-use super::equations::{Direction, Equations, Failed, Stability};
+use super::equations::{Direction, Equations, Failed, Pivot, Stability};
 use crate::InvalidInput;
 use crate::boundary::{
     Bordered, Correction, Failure, Family, Iterate, Line, Mesh, Problem, Stepper, System, estimate, goal,
@@ -166,8 +166,9 @@ impl Equations for Held {
     type State = HeldState;
     type Change = Correction;
 
-    fn moved(&self, x: &HeldState, change: &Correction, factor: f64) -> HeldState {
-        let Some(system) = &self.system else { return x.clone() };
+    fn moved(&mut self, x: &HeldState, change: &Correction, factor: f64) -> HeldState {
+        let t = self.at.as_ref().map_or(0.0, |(t, _)| *t);
+        let Ok(system) = self.system(x, t) else { return x.clone() };
         let mut moved = x.x.moved(change, factor, &system.units);
         system.settle(&mut moved, 1.0);
         HeldState { nodes: Arc::clone(&x.nodes), x: moved }
@@ -182,7 +183,8 @@ impl Equations for Held {
     }
 
     fn dot(&self, a: &Correction, b: &Correction) -> f64 {
-        self.system.as_ref().map_or(f64::NAN, |system| a.dot(b, &system.mesh))
+        let fits = |system: &&System| [a, b].iter().all(|c| c.nodes.len() == system.mesh.nodes.len());
+        self.system.as_ref().filter(fits).map_or(f64::NAN, |system| a.dot(b, &system.mesh))
     }
 
     fn linearise(
@@ -235,8 +237,8 @@ impl Equations for Held {
         let inertia = self.work.index.of(|| system.inertia(&x.x, 1.0));
         let index =
             if sections.index == 0 { inertia.as_ref().and_then(|inertia| inertia.index()) } else { None };
-        let modes = inertia.map_or_else(Vec::new, |inertia| inertia.last);
-        Stability { section_index: sections.index, section: sections.least.min(1e300), index, modes }
+        let pivot = inertia.map_or(Pivot::None, |inertia| Pivot::Chain(Box::new(inertia)));
+        Stability { section_index: sections.index, section: sections.least.min(1e300), index, pivot }
     }
 
     fn invariants(&mut self, x: &HeldState, _: f64) -> Vec<f64> {
@@ -269,12 +271,19 @@ impl Equations for Held {
             return Ok(None);
         }
         let system = self.system(x, t)?;
-        let problem = Arc::clone(&system.mesh.problem);
         let nodes = refined(&system.mesh, &estimated, MARGIN * tolerance);
-        let finer = Mesh::new(&problem, nodes, degree)?;
-        let moved = transferred(&x.x, &system.mesh, &finer)?;
-        let nodes = finer.nodes.iter().map(|s| s / problem.length).collect();
-        Ok(Some(HeldState { nodes: Arc::new(nodes), x: moved }))
+        Ok(Some(transferred_to(&system.mesh, &x.x, nodes, degree)?))
+    }
+
+    fn doubled(&mut self, x: &HeldState, t: f64) -> Result<Option<HeldState>, Failed> {
+        let problem = self.problem(t)?;
+        let mesh = Mesh::new(&problem, Self::places(&x.nodes, problem.length), self.degree)?;
+        if mesh.elements() >= MOST_ELEMENTS {
+            return Ok(None);
+        }
+        let halves = mesh.nodes.windows(2).flat_map(|ends| [ends[0], 0.5 * (ends[0] + ends[1])]);
+        let nodes = halves.chain([problem.length]).collect();
+        Ok(Some(transferred_to(&mesh, &x.x, nodes, self.degree)?))
     }
 
     fn remeshed(
@@ -320,6 +329,19 @@ impl Equations for Held {
         let strains = vec![soft; x.x.strains.len()];
         Some(Direction { x: Correction { nodes, strains, slack: Default::default() }, t: 0.0 })
     }
+}
+
+/// The state on a mesh of these nodes.
+fn transferred_to(
+    mesh: &Mesh,
+    x: &Iterate,
+    nodes: Vec<f64>,
+    degree: usize,
+) -> Result<HeldState, InvalidInput> {
+    let finer = Mesh::new(&mesh.problem, nodes, degree)?;
+    let moved = transferred(x, mesh, &finer)?;
+    let length = mesh.problem.length;
+    Ok(HeldState { nodes: Arc::new(finer.nodes.iter().map(|s| s / length).collect()), x: moved })
 }
 
 /// Radians by which a ribbon is bent or twisted to see where that leads.

@@ -12,6 +12,8 @@ pub struct Found<E: Equations> {
     pub kind: SpecialKind,
     /// By how much the index, or that of sections, changes.
     pub multiplicity: usize,
+    /// The mode that vanishes there, and how fast it changes with the parameter.
+    pub slope: Option<(usize, f64)>,
 }
 
 /// Evaluations of a search that are too many.
@@ -39,7 +41,12 @@ pub fn special_points<E: Equations>(
             .filter(|pair| (pair[0].t - value) * (pair[1].t - value) < 0.0)
             .filter_map(|pair| at_value(equations, pair[0], pair[1], value))
             .collect();
-        found.extend(met.into_iter().map(|point| Found { point, kind: SpecialKind::Value, multiplicity: 0 }));
+        found.extend(met.into_iter().map(|point| Found {
+            point,
+            kind: SpecialKind::Value,
+            multiplicity: 0,
+            slope: None,
+        }));
         found.sort_by(|a, b| a.point.s.total_cmp(&b.point.s));
     }
     found
@@ -68,7 +75,7 @@ fn between<E: Equations>(
         }
     };
     // Several in one interval are told apart by halves of it.
-    let several = depth < DEEPEST && (turns && unstable[0] != unstable[1] || turns && multiplicity > 1);
+    let several = depth < DEEPEST && turns && (unstable[0] != unstable[1] || multiplicity > 1);
     if several && let Some(middle) = at(equations, a, b, 0.5 * (b.s - a.s)) {
         between(equations, a, &middle, depth + 1, found);
         between(equations, &middle, b, depth + 1, found);
@@ -81,7 +88,10 @@ fn between<E: Equations>(
         multiplicity
     };
     let before = (kept < multiplicity && depth < DEEPEST).then(|| beside(equations, a, b, &point));
-    found.push(Found { point, kind, multiplicity: kept });
+    let mode = first_mode(a, b);
+    let modes = [a, b].map(|point| point.stability.modes().get(mode).copied().unwrap_or(0.0));
+    let slope = (!turns).then_some((mode, (modes[1] - modes[0]) / (b.t - a.t)));
+    found.push(Found { point, kind, multiplicity: kept, slope });
     // Those that are not at the same place.
     if let Some([left, right]) = before {
         let here = found.pop();
@@ -95,6 +105,13 @@ fn between<E: Equations>(
     }
 }
 
+/// The mode that is the first to change sign.
+fn first_mode<S, C>(a: &super::Point<S, C>, b: &super::Point<S, C>) -> usize {
+    let negative =
+        |point: &super::Point<S, C>| point.stability.modes().iter().filter(|mode| **mode < 0.0).count();
+    negative(a).min(negative(b))
+}
+
 /// How many modes vanish at a branch point between `a` and `b`.
 fn multiple<S, C>(
     a: &super::Point<S, C>,
@@ -102,8 +119,7 @@ fn multiple<S, C>(
     point: &super::Point<S, C>,
     most: usize,
 ) -> usize {
-    let modes = |point: &super::Point<S, C>| point.stability.modes.clone();
-    let (from, to, here) = (modes(a), modes(b), modes(point));
+    let [from, to, here] = [a, b, point].map(|point| point.stability.modes());
     let small = |i: &usize| {
         let size = from.get(*i).map_or(0.0, |m| m.abs()).max(to.get(*i).map_or(0.0, |m| m.abs()));
         here[*i].abs() <= 1e-5 * size
@@ -124,7 +140,12 @@ fn beside<E: Equations>(
 }
 
 /// The point a `length` from `a` toward `b`.
-fn at<E: Equations>(equations: &mut E, a: &PointOf<E>, b: &PointOf<E>, length: f64) -> Option<PointOf<E>> {
+pub fn at<E: Equations>(
+    equations: &mut E,
+    a: &PointOf<E>,
+    b: &PointOf<E>,
+    length: f64,
+) -> Option<PointOf<E>> {
     tried(equations, a, b, length).ok()
 }
 
@@ -183,12 +204,11 @@ fn located<E: Equations>(
     turns: bool,
 ) -> Option<PointOf<E>> {
     let first = a.stability.clone();
-    // The mode that is the first to change sign.
-    let mode = a.stability.negative_modes().min(b.stability.negative_modes());
+    let mode = first_mode(a, b);
     let function = |point: &PointOf<E>| match kind {
         SpecialKind::SectionInstability => point.stability.section,
         _ if turns => point.along.t,
-        _ => point.stability.modes.get(mode).copied().unwrap_or(0.0),
+        _ => point.stability.modes().get(mode).copied().unwrap_or(0.0),
     };
     let before = |point: &PointOf<E>| match kind {
         SpecialKind::SectionInstability => point.stability.section_index == first.section_index,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::equations::{Direction, Equations, Failed, Stability};
+use super::equations::{Direction, Equations, Failed, Pivot, Stability};
 use crate::InvalidInput;
 use crate::equilibrium::{Balance, balance};
 use crate::section::{RibbonLaw, RibbonSpec, Station};
@@ -102,12 +102,15 @@ impl Equations for Natural {
     type State = [f64; 2];
     type Change = [f64; 2];
 
-    fn moved(&self, x: &[f64; 2], change: &[f64; 2], factor: f64) -> [f64; 2] {
+    fn moved(&mut self, x: &[f64; 2], change: &[f64; 2], factor: f64) -> [f64; 2] {
         [x[0] + factor * change[0], x[1] + factor * change[1]]
     }
 
     fn sum(&self, parts: &[(f64, &[f64; 2])]) -> [f64; 2] {
-        parts.iter().fold([0.0; 2], |sum, (factor, part)| self.moved(&sum, part, *factor))
+        let add = |sum: [f64; 2], (factor, part): &(f64, &[f64; 2])| {
+            [sum[0] + factor * part[0], sum[1] + factor * part[1]]
+        };
+        parts.iter().fold([0.0; 2], add)
     }
 
     fn dot(&self, a: &[f64; 2], b: &[f64; 2]) -> f64 {
@@ -172,8 +175,8 @@ impl Equations for Natural {
     fn stability(&mut self, _: &[f64; 2], _: f64) -> Stability {
         let Some(balance) = &self.balance else { return Stability::default() };
         // The ends are free: what the section does decides.
-        let modes = balance.eigenvalues().to_vec();
-        Stability { section_index: 0, section: 1.0, index: Some(balance.index()), modes }
+        let pivot = Pivot::Modes(balance.eigenvalues());
+        Stability { section_index: 0, section: 1.0, index: Some(balance.index()), pivot }
     }
 
     fn invariants(&mut self, x: &[f64; 2], _: f64) -> Vec<f64> {
@@ -181,6 +184,10 @@ impl Equations for Natural {
     }
 
     fn refined(&mut self, _: &[f64; 2], _: f64) -> Result<Option<[f64; 2]>, Failed> {
+        Ok(None)
+    }
+
+    fn doubled(&mut self, _: &[f64; 2], _: f64) -> Result<Option<[f64; 2]>, Failed> {
         Ok(None)
     }
 

@@ -75,6 +75,26 @@ pub struct BoundarySolution {
     solution: Solution,
 }
 
+impl BoundaryProblem {
+    /// The problem.
+    pub fn problem(&self) -> Arc<Problem> {
+        Arc::clone(&self.problem)
+    }
+}
+
+impl From<Solution> for BoundarySolution {
+    fn from(solution: Solution) -> Self {
+        Self { solution }
+    }
+}
+
+impl BoundarySolution {
+    /// The solution.
+    pub fn solution(&self) -> &Solution {
+        &self.solution
+    }
+}
+
 #[pymethods]
 impl BoundaryProblem {
     #[new]

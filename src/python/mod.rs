@@ -5,6 +5,7 @@
 
 mod boundary;
 mod branch;
+mod continuation;
 mod frame;
 mod section;
 
@@ -50,6 +51,8 @@ mod _core {
     use super::boundary::{BoundaryProblem, BoundarySolution, LinearLaw};
     #[pymodule_export]
     use super::branch::NaturalBranch;
+    #[pymodule_export]
+    use super::continuation::{Trace, TracedBranch, trace, trace_natural};
     #[pymodule_export]
     use super::frame::{gauss_points, helix, integrate_gauss, integrate_nodal, integrate_segments};
     #[pymodule_export]

@@ -1,0 +1,468 @@
+//! Branches of equilibria.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use nalgebra::Vector3;
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray1, PyArray2};
+use pyo3::prelude::*;
+
+use super::boundary::{BoundaryProblem, BoundarySolution};
+use super::section::SectionLaw;
+use crate::InvalidInput;
+use crate::boundary::{DEGREE, Family, MAX_DEGREE, Mesh, Solution, energies};
+use crate::continuation::{
+    Branch, Diagram, Ended, Equations, Failed, Held, HeldState, Limits, Natural, NaturalFamily, Point, begin,
+    between, diagram,
+};
+use crate::equilibrium::natural_shapes;
+use crate::frame::{Pose, helix};
+use crate::section::Strain;
+
+type HeldPoint = Point<HeldState, crate::boundary::Correction>;
+type NaturalPoint = Point<[f64; 2], [f64; 2]>;
+
+/// Kind, branch, place among its points, parameter, multiplicity.
+type SpecialPoint = (String, usize, usize, f64, usize);
+
+/// What is told of a point of a branch.
+struct Row {
+    parameter: f64,
+    energy: f64,
+    load_potential: f64,
+    section_index: usize,
+    index: f64,
+    strains: Strain,
+    position: Vector3<f64>,
+    reactions: [f64; 12],
+}
+
+/// The points of a branch and the equations they solve.
+enum Points {
+    Natural(Mutex<Natural>, Vec<NaturalPoint>),
+    Held(Arc<Mutex<Held>>, Vec<HeldPoint>),
+}
+
+/// Equilibria along a branch.
+#[pyclass(frozen, module = "ribbonrs._core")]
+pub struct TracedBranch {
+    span: [f64; 2],
+    degree: usize,
+    points: Points,
+    rows: Vec<Row>,
+    ended: [Ended; 2],
+    origin: Option<usize>,
+    mirrored: bool,
+}
+
+/// Branches of equilibria and their special points: kind, branch, point, parameter, multiplicity.
+#[pyclass(frozen, module = "ribbonrs._core")]
+pub struct Trace {
+    branches: Vec<Py<TracedBranch>>,
+    special: Vec<SpecialPoint>,
+}
+
+#[pymethods]
+impl Trace {
+    /// The branches, in the order in which they were found.
+    #[getter]
+    fn branches(&self, py: Python<'_>) -> Vec<Py<TracedBranch>> {
+        self.branches.iter().map(|branch| branch.clone_ref(py)).collect()
+    }
+
+    /// Kind, branch, place among its points, parameter, multiplicity.
+    #[getter]
+    fn special_points(&self) -> Vec<SpecialPoint> {
+        self.special.clone()
+    }
+}
+
+#[pymethods]
+impl TracedBranch {
+    /// The parameter (k,).
+    #[getter]
+    fn parameter<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, |row| row.parameter)
+    }
+
+    /// Elastic energy (k,) over the ribbon.
+    #[getter]
+    fn energy<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, |row| row.energy)
+    }
+
+    /// Minus the work of dead forces (k,).
+    #[getter]
+    fn load_potential<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, |row| row.load_potential)
+    }
+
+    /// Largest number of negative eigenvalues of a section's tangent stiffness (k,).
+    #[getter]
+    fn section_index<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        let indices: Vec<i64> = self.rows.iter().map(|row| row.section_index as i64).collect();
+        indices.into_pyarray(py)
+    }
+
+    /// The stability index (k,): infinite where a section is unstable, NaN where it cannot be told.
+    #[getter]
+    fn index<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, |row| row.index)
+    }
+
+    /// Means of the strains over the ribbon (k, 4).
+    #[getter]
+    fn strains<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        self.table(py, 4, |row, c| row.strains[c])
+    }
+
+    /// Where the end is (k, 3).
+    #[getter]
+    fn position<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        self.table(py, 3, |row, c| row.position[c])
+    }
+
+    /// Force and moment that the start, then the end, exert on the ribbon, in the fixed basis (k, 12).
+    #[getter]
+    fn reactions<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        self.table(py, 12, |row, c| row.reactions[c])
+    }
+
+    /// How it ended: its beginning and its end.
+    #[getter]
+    fn ended(&self) -> (&'static str, &'static str) {
+        (self.ended[0].name(), self.ended[1].name())
+    }
+
+    /// Why it was not followed further, empty if it was.
+    #[getter]
+    fn reason(&self) -> String {
+        let told = self.ended.iter().filter_map(|ended| match ended {
+            Ended::Failed(failed) => Some(failed.to_string()),
+            _ => None,
+        });
+        told.collect::<Vec<_>>().join("; ")
+    }
+
+    /// The special point at which it leaves another branch.
+    #[getter]
+    fn origin(&self) -> Option<usize> {
+        self.origin
+    }
+
+    /// Whether its mirror image is a branch, too.
+    #[getter]
+    fn mirrored(&self) -> bool {
+        self.mirrored
+    }
+
+    /// The equilibrium at a point; None if its strains say all.
+    fn solution(&self, py: Python<'_>, i: usize) -> PyResult<Option<BoundarySolution>> {
+        match &self.points {
+            Points::Natural(..) => Ok(None),
+            Points::Held(equations, points) => {
+                let point = points.get(i).ok_or_else(|| self.no_point(i))?;
+                Ok(Some(py.detach(|| solution(&mut lock(equations), point, self.degree))?))
+            }
+        }
+    }
+
+    /// The equilibrium at a fraction of the way from a point to the next: its parameter, mean strains, and solution.
+    fn between<'py>(
+        &self,
+        py: Python<'py>,
+        i: usize,
+        fraction: f64,
+    ) -> PyResult<(f64, Bound<'py, PyArray1<f64>>, Option<BoundarySolution>)> {
+        let none = || InvalidInput::new("fraction", fraction, "a place at which there is an equilibrium");
+        let (row, solution) = py.detach(|| match &self.points {
+            Points::Natural(equations, points) => {
+                let [a, b] = pair(points, i).ok_or_else(|| self.no_point(i))?;
+                let mut equations = lock(equations);
+                let point = between(&mut *equations, a, b, fraction * (b.s - a.s)).ok_or_else(none)?;
+                Ok::<_, InvalidInput>((natural_row(&mut equations, &point, self.span)?, None))
+            }
+            Points::Held(equations, points) => {
+                let [a, b] = pair(points, i).ok_or_else(|| self.no_point(i))?;
+                let mut equations = lock(equations);
+                let point = between(&mut *equations, a, b, fraction * (b.s - a.s)).ok_or_else(none)?;
+                let row = held_row(&mut equations, &point, self.span, self.degree)?;
+                Ok((row, Some(solution(&mut equations, &point, self.degree)?)))
+            }
+        })?;
+        Ok((row.parameter, row.strains.as_slice().to_vec().into_pyarray(py), solution))
+    }
+}
+
+impl TracedBranch {
+    fn column<'py>(&self, py: Python<'py>, of: impl Fn(&Row) -> f64) -> Bound<'py, PyArray1<f64>> {
+        self.rows.iter().map(of).collect::<Vec<_>>().into_pyarray(py)
+    }
+
+    fn table<'py>(
+        &self,
+        py: Python<'py>,
+        columns: usize,
+        of: impl Fn(&Row, usize) -> f64,
+    ) -> Bound<'py, PyArray2<f64>> {
+        Array2::from_shape_fn((self.rows.len(), columns), |(i, c)| of(&self.rows[i], c)).into_pyarray(py)
+    }
+
+    fn no_point(&self, i: usize) -> InvalidInput {
+        InvalidInput::new("point", i, &format!("a number below {}", self.rows.len()))
+    }
+}
+
+/// What a panic elsewhere left behind is whole: each method begins anew.
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn pair<T>(points: &[T], i: usize) -> Option<[&T; 2]> {
+    Some([points.get(i)?, points.get(i + 1)?])
+}
+
+fn solution(
+    equations: &mut Held,
+    point: &HeldPoint,
+    degree: usize,
+) -> Result<BoundarySolution, InvalidInput> {
+    let problem = equations.problem(point.t)?;
+    let nodes = Held::places(&point.x.nodes, problem.length);
+    let solution = Solution::found(problem, degree, nodes, point.x.x.clone())?;
+    Ok(BoundarySolution::from(solution))
+}
+
+fn parameter(span: [f64; 2], t: f64) -> f64 {
+    if t == 1.0 { span[1] } else { span[0] + t * (span[1] - span[0]) }
+}
+
+/// The index where sections are stable, else infinite.
+fn index(section_index: usize, index: Option<usize>) -> f64 {
+    match (section_index, index) {
+        (0, Some(index)) => index as f64,
+        (0, None) => f64::NAN,
+        _ => f64::INFINITY,
+    }
+}
+
+fn natural_row(equations: &mut Natural, point: &NaturalPoint, span: [f64; 2]) -> Result<Row, InvalidInput> {
+    let station = equations.station(point.t)?;
+    let section = station.section();
+    let (eta, r) = (section.eta(), section.reduction());
+    let [k, q] = point.x;
+    let local = Strain::new(r.eps - (q * eta).powi(2) / 24.0, r.k1, k * eta, q * eta);
+    let strains = station.reference(&local);
+    // The energy is stationary: the sections' own index is that of the ribbon.
+    let section_index = point.stability.index.unwrap_or(0);
+    let start = Pose::new([0.0; 3], [1.0, 0.0, 0.0, 0.0]);
+    Ok(Row {
+        parameter: parameter(span, point.t),
+        energy: station.energy(&strains),
+        load_potential: 0.0,
+        section_index,
+        index: index(section_index, Some(0)),
+        strains,
+        position: helix(&[1.0], &strains, &start)[0].position,
+        reactions: [0.0; 12],
+    })
+}
+
+fn held_row(
+    equations: &mut Held,
+    point: &HeldPoint,
+    span: [f64; 2],
+    degree: usize,
+) -> Result<Row, InvalidInput> {
+    let problem = equations.problem(point.t)?;
+    let nodes = Held::places(&point.x.nodes, problem.length);
+    let mesh = Mesh::new(&problem, nodes, degree)?;
+    let x = &point.x.x;
+    let energies = energies(&mesh, x)?;
+    let mut strains = Strain::zeros();
+    for i in 0..mesh.elements() {
+        for (strain, weight) in x.strains[i * degree..].iter().zip(&mesh.gauss.weights) {
+            strains += strain * (weight * mesh.length(i) / problem.length);
+        }
+    }
+    let (start, end) = (&x.nodes[0], &x.nodes[x.nodes.len() - 1]);
+    let mut reactions = [0.0; 12];
+    for (i, v) in [-start.force, -start.moment(), end.force, end.moment()].iter().enumerate() {
+        reactions[3 * i..3 * i + 3].copy_from_slice(v.as_slice());
+    }
+    let stability = &point.stability;
+    Ok(Row {
+        parameter: parameter(span, point.t),
+        energy: energies.elastic,
+        load_potential: energies.load,
+        section_index: stability.section_index,
+        index: index(stability.section_index, stability.index),
+        strains,
+        position: end.position,
+        reactions,
+    })
+}
+
+/// The special points of all branches, in order, and the number of the first of each branch.
+fn specials<S, C>(branches: &[Branch<S, C>], span: [f64; 2]) -> (Vec<SpecialPoint>, Vec<usize>) {
+    let (mut special, mut first) = (Vec::new(), Vec::new());
+    for (i, branch) in branches.iter().enumerate() {
+        first.push(special.len());
+        for one in &branch.special {
+            let t = branch.points[one.place].t;
+            special.push((one.kind.name().to_owned(), i, one.place, parameter(span, t), one.multiplicity));
+        }
+    }
+    (special, first)
+}
+
+/// A signal that Python's handler answers with an exception ends the work.
+fn interrupted() -> bool {
+    Python::attach(|py| py.check_signals().is_err())
+}
+
+fn limits(span: [f64; 2], values: &[f64], steps: usize) -> Limits {
+    let mut values: Vec<f64> = values.iter().map(|value| (value - span[0]) / (span[1] - span[0])).collect();
+    values.sort_by(f64::total_cmp);
+    Limits { steps, values, interrupted: Some(interrupted), ..Limits::default() }
+}
+
+fn was_interrupted<E: Equations>(diagram: &Diagram<E>) -> bool {
+    diagram
+        .branches
+        .iter()
+        .flat_map(|branch| &branch.ended)
+        .any(|ended| *ended == Ended::Failed(Failed::Interrupted))
+}
+
+/// Branches of equilibria of a ribbon between two problems: from `start` at `start_value`, and what branches off.
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "what is asked of a trace")]
+pub fn trace(
+    py: Python<'_>,
+    problems: (PyRef<'_, BoundaryProblem>, PyRef<'_, BoundaryProblem>),
+    span: [f64; 2],
+    start: PyRef<'_, BoundarySolution>,
+    start_value: f64,
+    values: Vec<f64>,
+    depth: usize,
+    max_steps: usize,
+    tol: f64,
+    degree: Option<usize>,
+) -> PyResult<Trace> {
+    let degree = degree.unwrap_or(DEGREE);
+    if !(1..=MAX_DEGREE).contains(&degree) {
+        let expected = format!("a whole number from 1 to {MAX_DEGREE}");
+        return Err(InvalidInput::new("degree", degree, &expected).into());
+    }
+    let family = Family::new(vec![problems.0.problem(), problems.1.problem()])?;
+    let solution = start.solution();
+    let t = (start_value - span[0]) / (span[1] - span[0]);
+    let state = {
+        let (nodes, length) = (solution.nodes(), solution.nodes()[solution.nodes().len() - 1]);
+        let x = solution.iterate().clone();
+        // The stages are those of its own degree.
+        if solution.degree() != degree {
+            let expected = format!("a state of degree {degree}");
+            return Err(InvalidInput::new("start", solution.degree(), &expected).into());
+        }
+        HeldState { nodes: Arc::new(nodes.iter().map(|s| s / length).collect()), x }
+    };
+    let limits = Limits { tolerance: (0.1 * tol).max(1e-14), ..limits(span, &values, max_steps) };
+    let (branches, special) = py
+        .detach(|| {
+            let mut equations = Held::new(family, 0.0, degree, tol);
+            let begun = begin(&mut equations, state, t, &limits);
+            let first = begun.map_err(|failed| {
+                InvalidInput::new("start", start_value, &format!("an equilibrium: {failed}"))
+            })?;
+            let both = t > 0.0 && t < 1.0;
+            let first = if t >= 1.0 { turned(&equations, first) } else { first };
+            let found = diagram(&mut equations, vec![first], both, depth, &limits);
+            let stopped = was_interrupted(&found);
+            let (special, numbers) = specials(&found.branches, span);
+            let equations = Arc::new(Mutex::new(equations));
+            let branch = |branch: Branch<HeldState, _>| {
+                let rows =
+                    branch.points.iter().map(|point| held_row(&mut lock(&equations), point, span, degree));
+                let rows = rows.collect::<Result<_, InvalidInput>>()?;
+                let origin = branch.origin.map(|(number, i)| numbers[number] + i);
+                let points = Points::Held(Arc::clone(&equations), branch.points);
+                let (ended, mirrored) = (branch.ended, branch.mirrored);
+                Ok::<_, InvalidInput>(TracedBranch { span, degree, points, rows, ended, origin, mirrored })
+            };
+            let branches: Vec<_> = found.branches.into_iter().map(branch).collect::<Result<_, _>>()?;
+            if stopped { Ok(None) } else { Ok::<_, InvalidInput>(Some((branches, special))) }
+        })?
+        .unwrap_or_default();
+    py.check_signals()?;
+    let branches = branches.into_iter().map(|branch| Py::new(py, branch)).collect::<PyResult<_>>()?;
+    Ok(Trace { branches, special })
+}
+
+fn turned<E: Equations>(equations: &E, point: Point<E::State, E::Change>) -> Point<E::State, E::Change> {
+    let along =
+        crate::continuation::Direction { x: equations.sum(&[(-1.0, &point.along.x)]), t: -point.along.t };
+    Point { along, ..point }
+}
+
+/// Branches of natural shapes of a uniform ribbon between two laws: through all there are at both ends, and what branches off.
+#[pyfunction]
+pub fn trace_natural(
+    py: Python<'_>,
+    laws: (PyRef<'_, SectionLaw>, PyRef<'_, SectionLaw>),
+    span: [f64; 2],
+    values: Vec<f64>,
+    depth: usize,
+    max_steps: usize,
+) -> PyResult<Trace> {
+    let family = NaturalFamily::new([laws.0.law().spec().clone(), laws.1.law().spec().clone()])?;
+    // Curvatures over the thickness ratio may be large.
+    let limits = Limits { longest: 10.0, ..limits(span, &values, max_steps) };
+    let (branches, special) = py.detach(|| {
+        let mut equations = Natural::new(family.clone());
+        let mut starts = Vec::new();
+        let mut known: Vec<(f64, [f64; 2])> = Vec::new();
+        for t in [0.0, 1.0] {
+            let station = equations.station(t)?;
+            let section = station.section();
+            for shape in natural_shapes(section) {
+                let x = [shape.strain[2] / section.eta(), shape.strain[3] / section.eta()];
+                known.push((t, x));
+                if let Ok(point) = begin(&mut equations, x, t, &limits) {
+                    starts.push(if t == 1.0 { turned(&equations, point) } else { point });
+                }
+            }
+        }
+        let found = diagram(&mut equations, starts, false, depth, &limits);
+        let (special, numbers) = specials(&found.branches, span);
+        let branch = |branch: Branch<[f64; 2], [f64; 2]>| {
+            let rows = branch.points.iter().map(|point| natural_row(&mut equations, point, span));
+            let rows = rows.collect::<Result<_, InvalidInput>>()?;
+            let origin = branch.origin.map(|(number, i)| numbers[number] + i);
+            // An image differs in a sign alone.
+            let image = |point: &NaturalPoint| {
+                known.iter().any(|(t, x)| {
+                    let same = |i: usize| (x[i].abs() - point.x[i].abs()).abs() <= 1e-9 * (1.0 + x[i].abs());
+                    *t == point.t && same(0) && same(1) && (0..2).any(|i| (x[i] - point.x[i]).abs() > 1e-6)
+                })
+            };
+            let mirrored = branch.mirrored || branch.points.iter().any(image);
+            let points = Points::Natural(Mutex::new(Natural::new(family.clone())), branch.points);
+            Ok::<_, InvalidInput>(TracedBranch {
+                span,
+                degree: 0,
+                points,
+                rows,
+                ended: branch.ended,
+                origin,
+                mirrored,
+            })
+        };
+        let branches: Vec<_> = found.branches.into_iter().map(branch).collect::<Result<_, _>>()?;
+        Ok::<_, InvalidInput>((branches, special))
+    })?;
+    py.check_signals()?;
+    let branches = branches.into_iter().map(|branch| Py::new(py, branch)).collect::<PyResult<_>>()?;
+    Ok(Trace { branches, special })
+}

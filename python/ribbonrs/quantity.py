@@ -69,7 +69,9 @@ def check_quantity(field: str, quantity: object) -> str:
     """Return the name of a quantity; an `InputError` that knows the nearest one if there is none."""
     if isinstance(quantity, str) and quantity in QUANTITIES:
         return quantity
-    known = ", ".join(re.sub(r"\[0\]", "[0..2]", name) for name in QUANTITIES if not re.search(r"[12]\]", name))
+    known = ", ".join(
+        re.sub(r"\[0\]", "[0..2]", name) for name in QUANTITIES if not re.search(r"[12]\]", name)
+    )
     expected = f"one of {known}"
     if isinstance(quantity, str):
         expected += f"; the nearest is {get_close_matches(quantity, QUANTITIES, n=1, cutoff=0.0)[0]}"
@@ -116,7 +118,9 @@ def _written(name: str) -> Iterator[str]:
     for pattern, text in SYMBOLS:
         found = re.fullmatch(pattern, name)
         if found:
-            one_based = [str(int(g) + 1) if g.isdigit() and "growth" not in pattern else g for g in found.groups()]
+            one_based = [
+                str(int(g) + 1) if g.isdigit() and "growth" not in pattern else g for g in found.groups()
+            ]
             for i, group in enumerate(one_based, start=1):
                 text = text.replace(f"\\{i}", group)
             yield text

@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import os
 import zipfile
+import zlib
 from functools import partial
 from importlib.metadata import version
 from os import PathLike
@@ -35,11 +36,22 @@ UNITS = (
     "branch<i>_*: one row for each point of branch i. parameter: in the units of the scene (thickness and "
     "length in the user's, all else dimensionless). strains (means over S of eps, K1, K2, K3), energy, "
     "load_potential (means over S), position (at S = L), reactions (force and moment at the start, then at "
-    "the end, in the fixed basis): dimensionless, lengths in the width a, curvatures in 1/a, forces in Y h a, "
-    "moments in Y h a^2, energies in Y h a. index: nan where it is not known. solutions: the numbers of each "
+    "the end, in the fixed basis): dimensionless, lengths in the width a, curvatures in 1/a, forces in "
+    "Y h a, moments in Y h a^2, energies in Y h a. index: nan where it is not known. solutions: the numbers of each "
     "boundary-value problem, for ribbonrs alone. special: kind, parameter, multiplicity, branch, point, "
     "name, reason."
 )
+
+DAMAGED = (
+    ValueError,  # of which InputError is one
+    LookupError,
+    TypeError,
+    AttributeError,
+    EOFError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+"""What reading something else, or a part of a file, ends with."""
 
 RECORD = ("ended", "reason", "origin", "mirrored")
 """What else a branch has."""
@@ -91,26 +103,15 @@ def load(path: str | PathLike[str]) -> Diagram:
     name = os.fspath(path)
     try:
         with np.load(path, allow_pickle=False) as file:
-            if not isinstance(file, np.lib.npyio.NpzFile) or str(file.get("format")) != FORMAT:
-                raise InputError("path", name, "a file that Diagram.save wrote")
-            if int(file["version"]) > VERSION:
-                raise InputError("path", name, f"a diagram of version {VERSION}, not {file['version']}")
-            return _diagram(file)
-    except InputError:
-        raise
+            written = str(file.get("format")), int(file.get("version", 0))
+            if written == (FORMAT, VERSION):
+                return _diagram(file)
     except OSError as error:
         raise InputError("path", name, f"a readable file, not: {error.strerror or error}") from None
-    except (
-        ValueError,
-        KeyError,
-        TypeError,
-        IndexError,
-        EOFError,
-        zipfile.BadZipFile,
-        zipfile.error,
-    ) as error:
-        reason = " ".join(str(error).split())[:80]
+    except DAMAGED as error:
+        reason = " ".join(str(error).split())[:80] or type(error).__name__
         raise InputError("path", name, f"a whole file that Diagram.save wrote, not: {reason}") from None
+    raise InputError("path", name, f"a {FORMAT} of version {VERSION}, which Diagram.save wrote")
 
 
 def _diagram(file: Any) -> Diagram:
@@ -175,6 +176,6 @@ def _special(row: list[Any], branches: tuple[Branch, ...]) -> SpecialPoint:
     """A special point; that of a zero is between points, where a file has no states."""
     kind, parameter, multiplicity, number, place, name, reason = row
     branch = branches[number]
-    on_point = float(branch.parameter[place]) == parameter
-    make = partial(branch.state, place) if on_point else partial(branch.between, place, 0.5)
+    between = kind == "zero" and float(branch.parameter[place]) != parameter
+    make = partial(branch.between, place, 0.5) if between else partial(branch.state, place)
     return SpecialPoint(kind, parameter, multiplicity, number, place, name, reason, make)

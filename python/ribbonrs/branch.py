@@ -120,6 +120,11 @@ class Branch:
         size = self.parameter.size
         return f"Branch({self.number}, {size} points from {first:.6g} to {last:.6g}, ended {ends})"
 
+    @cached_property
+    def held(self) -> bool:
+        """Whether its states are solutions of boundary-value problems, not natural shapes."""
+        return self.source.solution(0) is not None
+
     @property
     def known(self) -> NDArray[np.bool_]:
         """(k,): whether it is known how many unstable directions there are."""
@@ -134,7 +139,7 @@ class Branch:
     @cached_property
     def phases(self) -> tuple[str, ...]:
         """The phase of the state at each point, "curved" if its strains vary along S."""
-        if self.source.solution(0) is not None:
+        if self.held:
             return tuple(self.state(i).phase for i in range(self.parameter.size))
         scenes = (self.maker.parameter.scene(value) for value in self.parameter.tolist())
         return tuple(

@@ -37,9 +37,9 @@ UNITS = (
     "length in the user's, all else dimensionless). strains (means over S of eps, K1, K2, K3), energy, "
     "load_potential (means over S), position (at S = L), reactions (force and moment at the start, then at "
     "the end, in the fixed basis): dimensionless, lengths in the width a, curvatures in 1/a, forces in "
-    "Y h a, moments in Y h a^2, energies in Y h a. index: nan where it is not known. solutions: the numbers of each "
-    "boundary-value problem, for ribbonrs alone. special: kind, parameter, multiplicity, branch, point, "
-    "name, reason."
+    "Y h a, moments in Y h a^2, energies in Y h a. index: nan where it is not known. solutions: the numbers "
+    "of each boundary-value problem, for ribbonrs alone. special: kind, parameter, multiplicity, branch, "
+    "point, name, reason."
 )
 
 DAMAGED = (

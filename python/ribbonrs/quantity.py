@@ -97,11 +97,11 @@ def values_of(branch: Branch, quantity: str) -> Array:
     return np.asarray((branch.position if name == "position" else branch.reactions)[:, column])
 
 
-def label(quantity: str) -> str:
-    """Return what an axis of the quantity says."""
+def label(quantity: str, varies: bool) -> str:
+    """Return what an axis of the quantity says, of states that vary along S or not."""
     vector = vector_of(quantity)
     if vector is None:
-        return LABELS[quantity]
+        return f"mean {LABELS[quantity]}" if varies and quantity in STRAINS else LABELS[quantity]
     name, k = vector
     if name == "position":
         return f"place of the end along $E_{k + 1}$"

@@ -84,9 +84,8 @@ class Kept:
 
     def between(self, i: int, fraction: float) -> Between:
         """There is nothing between the points: an error that says so."""
-        value = float((1.0 - fraction) * self.values[i] + fraction * self.values[i + 1])
-        expected = "the parameter at a point, since a diagram from a file has nothing between points"
-        raise InputError("value", value, expected)
+        expected = "a point of a branch, since a diagram from a file has nothing between them"
+        raise InputError("state", f"between points {i} and {i + 1}", expected)
 
 
 Source: TypeAlias = Live | Kept

@@ -14,6 +14,8 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from . import growth
+from .continuation import trace
+from .diagram import Diagram, load_diagram
 from .ends import Clamped, Closed, Free, Hinged, Pinned, Sliding
 from .equilibrium import natural_shapes, solve
 from .errors import ConvergenceError, InputError, RibbonError, RibbonWarning
@@ -24,6 +26,7 @@ from .law import SectionLaw
 from .linear import LinearLaw
 from .loads import LineLoad, PointLoad, weight
 from .material import Isotropic, MooneyRivlin, Orthotropic
+from .parameter import parameters
 from .ribbon import Ribbon
 from .scene import Scene
 from .state import State
@@ -35,6 +38,7 @@ __all__ = [
     "Clamped",
     "Closed",
     "ConvergenceError",
+    "Diagram",
     "Free",
     "Growth",
     "Helix",
@@ -57,8 +61,11 @@ __all__ = [
     "analytic",
     "growth",
     "integrate_frame",
+    "load_diagram",
     "natural_shapes",
+    "parameters",
     "solve",
+    "trace",
     "weight",
 ]
 

@@ -5,6 +5,7 @@ What has no array is JSON text: nothing is pickled, and any program that reads .
 
 from __future__ import annotations
 
+import csv
 import json
 import os
 import zipfile
@@ -26,7 +27,7 @@ from .parameter import Parameter, parameter_of
 from .record import record_of, scene_of
 from .traced import Kept, Maker
 
-__all__ = ["SUFFIX", "load", "save"]
+__all__ = ["load", "save", "write_table"]
 
 FORMAT = "ribbonrs diagram"
 VERSION = 1
@@ -112,6 +113,15 @@ def load(path: str | PathLike[str]) -> Diagram:
         reason = " ".join(str(error).split())[:80] or type(error).__name__
         raise InputError("path", name, f"a whole file that Diagram.save wrote, not: {reason}") from None
     raise InputError("path", name, f"a {FORMAT} of version {VERSION}, which Diagram.save wrote")
+
+
+def write_table(diagram: Diagram, path: str | PathLike[str]) -> None:
+    """Write `Diagram.table` as comma-separated values, numbers with all their digits."""
+    columns = diagram.table()
+    with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(zip(*columns.values(), strict=True))
 
 
 def _diagram(file: Any) -> Diagram:

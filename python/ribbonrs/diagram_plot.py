@@ -10,18 +10,16 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.collections import PolyCollection
-from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from .arrays import Array
 from .branch import Branch, SpecialPoint
 from .diagram import Diagram
+from .diagram_shapes import Shape, draw_shapes
 from .parameter import parameter_of
 from .plot import write
 from .quantity import check_quantity, label, parameter_label
-from .render import Picture, render
 from .smooth import Curve, smooth
 from .symmetry import image, symmetries
 
@@ -43,14 +41,13 @@ MARKS: dict[str, dict[str, Any]] = {
 }
 NEUTRAL = {"fold", "branch_point", "section_instability", "branch point", "section instability"}
 """Kinds of special points, and of ends, at which a direction becomes neutral."""
-SMALLEST = 1e-9
+# Curvatures up to this times the thickness ratio, and places up to this times the length, are drawn as 0.
+SMALLEST = 1e-6
 INK = "0.2"
 DPI = 200.0
 # Inches, for a column of a journal: the diagram, the margins to its left and below it, and the shapes.
 WIDE, HIGH, LEFT, LOW, SHAPES, ROW = 3.4, 2.6, 0.62, 0.48, 1.35, 0.17
 MOST_SHAPES = 3
-# A shape is painted in the colour of its branch, so much of it.
-TINT = 0.55
 
 
 @dataclass(frozen=True)
@@ -98,7 +95,7 @@ def plot(diagram: Diagram, quantity: str = "K3", path: str | PathLike[str] | Non
     figure = Figure(dpi=DPI, facecolor="white")
     FigureCanvasAgg(figure)
     handles = [*_styles_of(lines), *_marks_of(diagram)]
-    above = 0.12 + ROW * -(-len(handles) // 3)
+    above = 0.28 + ROW * -(-len(handles) // 3)
     size = np.array([LEFT + WIDE + 0.1 + (SHAPES if shown else 0.0), LOW + HIGH + above])
     figure.set_size_inches(*size)
     axes = figure.add_axes((LEFT / size[0], LOW / size[1], WIDE / size[0], HIGH / size[1]))
@@ -113,14 +110,14 @@ def plot(diagram: Diagram, quantity: str = "K3", path: str | PathLike[str] | Non
     axes.set_ylabel(label(quantity, varies), fontsize=9, color=INK)
     axes.tick_params(labelsize=8, color=INK, labelcolor=INK)
     axes.locator_params(nbins=6)
-    axes.ticklabel_format(scilimits=(-2, 4), useMathText=True)
+    axes.ticklabel_format(scilimits=(-3, 4), useMathText=True)
     for axis in (axes.xaxis, axes.yaxis):
         axis.get_offset_text().set(fontsize=8, color=INK)
     axes.spines[["top", "right"]].set_visible(False)
     axes.legend(
         handles=handles,
         loc="lower left",
-        bbox_to_anchor=(0.0, 1.0),
+        bbox_to_anchor=(0.0, 1.0 + 0.16 / HIGH),
         ncols=3,
         fontsize=7.5,
         frameon=False,
@@ -129,7 +126,8 @@ def plot(diagram: Diagram, quantity: str = "K3", path: str | PathLike[str] | Non
         handletextpad=0.5,
         labelspacing=0.25,
     )
-    _draw_shapes(figure, axes, [(point, _own(lines, point[0])) for point in shown])
+    letters = _letters(axes, shown, lines)
+    draw_shapes(figure, (LEFT + WIDE + 0.15, LOW + HIGH), (SHAPES - 0.1, HIGH / MOST_SHAPES), letters)
     if path is not None:
         write(figure, path)
     return figure
@@ -142,15 +140,23 @@ def _lines(diagram: Diagram, quantity: str) -> Iterator[Line]:
     factors = {image(np.array(signs), quantity) for signs in sorted(kept[0] & kept[1])}
     own = []
     for branch in diagram.branches:
-        values = branch.values(quantity)
-        finite = np.where(np.isfinite(values), values, np.nan)
+        finite = _seen(branch, quantity)
         curve = smooth(branch.parameter, finite, straight=quantity == "index")
         neutral = _neutral(diagram, branch)
         colour = COLOURS[branch.number % len(COLOURS)]
-        if branch.mirrored and -1.0 in factors and np.nanmax(np.abs(finite)) > SMALLEST:
+        if branch.mirrored and -1.0 in factors and np.any(finite != 0.0):
             yield Line(branch, curve.mirrored(), colour, FAINT, neutral)
         own.append(Line(branch, curve, colour, 1.0, neutral))
     yield from own
+
+
+def _seen(branch: Branch, quantity: str) -> Array:
+    """A quantity without what is infinite, or only rounding."""
+    values, ribbon = branch.values(quantity), branch.maker.parameter.base.ribbon
+    noise = SMALLEST * (ribbon.thickness_ratio if quantity.startswith("K") else ribbon.length_ratio)
+    if quantity.startswith(("K", "position")):
+        values = np.where(np.abs(values) <= noise, 0.0, values)
+    return np.where(np.isfinite(values), values, np.nan)
 
 
 def _own(lines: list[Line], branch: Branch) -> Line:
@@ -272,41 +278,14 @@ def _shown(diagram: Diagram) -> Iterator[tuple[Branch, int]]:
     yield from found[:MOST_SHAPES]
 
 
-def _draw_shapes(figure: Figure, axes: Axes, shown: list[tuple[tuple[Branch, int], Line]]) -> None:
-    """Shapes from top to bottom as their points are, with a letter each."""
-    shown = sorted(shown, key=lambda entry: -entry[1].curve.nodes[entry[0][1], 1])
-    pictures = [render(branch.state(i)) for (branch, i), _ in shown]
-    if not pictures:
-        return
-    width, height = figure.get_size_inches()
-    box = np.array([SHAPES - 0.1, HIGH / MOST_SHAPES])
-    largest = np.max([np.subtract(*picture.extent[::-1]) for picture in pictures], axis=0)
-    inch = 1.12 * float(max(largest / (box - [0.0, 0.18])))
-    for row, (((_, i), line), picture) in enumerate(zip(shown, pictures, strict=True)):
-        place = (LEFT + WIDE + 0.15, LOW + HIGH - (row + 1) * box[1])
-        space = figure.add_axes(
-            (place[0] / width, place[1] / height, box[0] / width, box[1] / height), frameon=False
-        )
-        _paint(space, picture, line.colour, box * inch)
-        letter = "abc"[row]
-        space.text(0.0, 0.97, letter, transform=space.transAxes, fontsize=9, color=line.colour, va="top")
-        node = line.curve.nodes[i]
-        axes.plot(*node, marker=".", color=line.colour, markersize=6, zorder=4.0, clip_on=False)
-        axes.annotate(
-            letter, node, (-3.0, 4.0), textcoords="offset points", fontsize=9, color=line.colour, ha="right"
-        )
-
-
-def _paint(axes: Axes, picture: Picture, colour: str, size: Array) -> None:
-    """The shape in the middle of axes of this size in widths."""
-    tint = 1.0 - TINT * (1.0 - np.array(to_rgb(colour)))
-    rgb = tint * picture.shade[:, None]
-    rgb = rgb + (1.0 - rgb) * picture.gloss[:, None]
-    cells = list(picture.cells)
-    axes.add_collection(
-        PolyCollection(cells, facecolors=rgb, edgecolors=rgb, linewidths=0.3, rasterized=True)
-    )
-    low, high = picture.extent
-    left, bottom = (low + high) / 2 - size / 2
-    axes.set(xlim=(left, left + size[0]), ylim=(bottom, bottom + size[1]), aspect="equal")
-    axes.axis("off")
+def _letters(axes: Axes, shown: list[tuple[Branch, int]], lines: list[Line]) -> list[Shape]:
+    """Mark points by letters, from top to bottom, and return the states there."""
+    nodes = [(branch, i, _own(lines, branch)) for branch, i in shown]
+    nodes.sort(key=lambda node: -node[2].curve.nodes[node[1], 1])
+    shapes = []
+    for letter, (branch, i, line) in zip("abc", nodes, strict=False):
+        place, style = line.curve.nodes[i], {"color": line.colour, "fontsize": 9}
+        axes.plot(*place, marker=".", color=line.colour, markersize=6, zorder=4.0, clip_on=False)
+        axes.annotate(letter, place, (-3.0, 4.0), textcoords="offset points", ha="right", **style)
+        shapes.append(Shape(letter, branch.state(i), line.colour))
+    return shapes

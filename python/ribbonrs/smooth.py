@@ -13,6 +13,9 @@ __all__ = ["Curve", "smooth"]
 DENSE = 600
 """Points of a curve that look smooth."""
 
+SHORTEST = 1e-9
+"""Least length of a step, of the diagram: points may be the same."""
+
 
 @dataclass(frozen=True)
 class Curve:
@@ -49,21 +52,33 @@ class Curve:
 
 
 def smooth(parameter: Array, quantity: Array, straight: bool = False) -> Curve:
-    """Return a curve through points (k,) in order, monotone between them in both coordinates.
+    """Return a curve through points (k,) in order; lines if `straight`.
 
-    Piecewise cubic in the length of the chords, both coordinates scaled to their range: it is vertical at
-    folds, which are points, and does not overshoot (Fritsch & Butland 1984). Lines if `straight`.
+    Piecewise cubic in the length of the chords, both coordinates scaled to their range: a spline, its slopes
+    limited so that the parameter goes one way between two points and the quantity does not swing (Fritsch
+    & Carlson 1980).
     """
     nodes = np.stack([parameter, quantity], axis=1)
     if straight or len(nodes) < 3 or not np.all(np.isfinite(nodes)):
         return Curve(nodes, 1)
     # Loaded here, since it takes longer than the whole package; scipy has no types.
-    from scipy.interpolate import PchipInterpolator  # type: ignore[import-untyped]
+    from scipy.interpolate import CubicHermiteSpline, CubicSpline  # type: ignore[import-untyped]
 
     size = np.ptp(nodes, axis=0)
     chords = np.linalg.norm(np.diff(nodes, axis=0) / np.where(size > 0.0, size, 1.0), axis=1)
-    length = np.concatenate([[0.0], np.cumsum(np.maximum(chords, 1e-9))])
-    step = max(1, DENSE // (len(nodes) - 1))
-    parts = np.arange(step) / step
-    places = np.append((length[:-1, None] + np.diff(length)[:, None] * parts).ravel(), length[-1])
-    return Curve(np.asarray(PchipInterpolator(length, nodes)(places)), step)
+    steps = np.maximum(chords, SHORTEST)
+    length = np.concatenate([[0.0], np.cumsum(steps)])
+    slopes = CubicSpline(length, nodes)(length, 1)
+    secants = np.diff(nodes, axis=0) / steps[:, None]
+    before, after = np.vstack([secants[:1], secants]), np.vstack([secants, secants[-1:]])
+    least = 3.0 * np.minimum(np.abs(before), np.abs(after))[:, 0]
+    most = 3.0 * np.maximum(np.abs(before), np.abs(after))[:, 1]
+    turns = before[:, 0] * after[:, 0] <= 0.0  # a fold, where the curve is vertical
+    against = slopes[:, 0] * after[:, 0] < 0.0
+    slopes[:, 0] = np.where(turns | against, 0.0, np.clip(slopes[:, 0], -least, least))
+    slopes[:, 1] = np.clip(slopes[:, 1], -most, most)
+    fine = max(1, DENSE // (len(nodes) - 1))
+    places = (length[:-1, None] + steps[:, None] * (np.arange(fine) / fine)).ravel()
+    points = CubicHermiteSpline(length, nodes, slopes)(np.append(places, length[-1]))
+    points[::fine] = nodes
+    return Curve(points, fine)

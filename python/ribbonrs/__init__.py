@@ -10,12 +10,9 @@ Examples
 from __future__ import annotations
 
 from importlib import import_module
-from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from . import growth
-from .continuation import trace
-from .diagram import Diagram, load_diagram
 from .ends import Clamped, Closed, Free, Hinged, Pinned, Sliding
 from .equilibrium import natural_shapes, solve
 from .errors import ConvergenceError, InputError, RibbonError, RibbonWarning
@@ -26,13 +23,15 @@ from .law import SectionLaw
 from .linear import LinearLaw
 from .loads import LineLoad, PointLoad, weight
 from .material import Isotropic, MooneyRivlin, Orthotropic
-from .parameter import parameters
 from .ribbon import Ribbon
 from .scene import Scene
 from .state import State
 
 if TYPE_CHECKING:
     from . import analytic
+    from .continuation import trace
+    from .diagram import Diagram, load_diagram
+    from .parameter import parameters
 
 __all__ = [
     "Clamped",
@@ -70,8 +69,19 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> ModuleType:
-    """Load the closed forms when they are first used: a third of what this package costs to import."""
+LATER = {
+    "Diagram": ".diagram",
+    "load_diagram": ".diagram",
+    "parameters": ".parameter",
+    "trace": ".continuation",
+}
+"""Names that are loaded when they are first used, from these modules."""
+
+
+def __getattr__(name: str) -> Any:
+    """Load what not every program uses: half of what this package costs to import."""
     if name == "analytic":
         return import_module(".analytic", __name__)
+    if name in LATER:
+        return getattr(import_module(LATER[name], __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -284,8 +284,9 @@ def _letters(axes: Axes, shown: list[tuple[Branch, int]], lines: list[Line]) -> 
     nodes.sort(key=lambda node: -node[2].curve.nodes[node[1], 1])
     shapes = []
     for letter, (branch, i, line) in zip("abc", nodes, strict=False):
-        place, style = line.curve.nodes[i], {"color": line.colour, "fontsize": 9}
+        place = line.curve.nodes[i]
+        style: dict[str, Any] = {"color": line.colour, "fontsize": 9, "ha": "right"}
         axes.plot(*place, marker=".", color=line.colour, markersize=6, zorder=4.0, clip_on=False)
-        axes.annotate(letter, place, (-3.0, 4.0), textcoords="offset points", ha="right", **style)
+        axes.annotate(letter, place, (-3.0, 4.0), textcoords="offset points", **style)
         shapes.append(Shape(letter, branch.state(i), line.colour))
     return shapes

@@ -31,6 +31,9 @@ DEEPEST = 20
 INSIDE = 1e-12
 """How far beyond the span, relative to it, rounding may put a start."""
 
+JUMP = 1e-3
+"""What is left of a function at a change of its sign, relative to its values beside it, if it is no zero."""
+
 Function = Callable[[State], float]
 
 
@@ -125,6 +128,8 @@ def trace(
         try:
             found = _core.trace(problems, (low, high), given, value, wanted, depth, max_steps, tol, degree)
         except ValueError as error:
+            if start is None:
+                raise InputError("scene", scene, f"one that can be traced, not: {error}") from None
             raise InputError("start", start, f"an equilibrium of the scene, not: {error}") from None
     branches = tuple(Branch.of(i, branch, maker, natural) for i, branch in enumerate(found.branches))
     special = [
@@ -259,7 +264,7 @@ def _zeros(branch: Branch, name: str, function: Function) -> Iterator[SpecialPoi
             yield SpecialPoint("zero", parameter, 1, branch.number, i, name, make=partial(branch.state, i))
         elif i + 1 < len(found) and here * found[i + 1] < 0.0:
             fraction = root(partial(between, i))
-            if abs(between(i, fraction)) > min(abs(here), abs(found[i + 1])):
+            if abs(between(i, fraction)) > JUMP * max(abs(here), abs(found[i + 1])):
                 continue  # it jumps or has a pole there
             parameter = branch.source.between(i, fraction)[0]
             make = partial(branch.between, i, fraction)

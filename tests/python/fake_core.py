@@ -1,5 +1,7 @@
 """What the core gives for a trace, made of states that are solved one by one."""
 
+import warnings
+
 import numpy as np
 import ribbonrs as rb
 from ribbonrs.course import Held
@@ -54,7 +56,9 @@ def shape_of(phase):
     """The equilibrium of a leaf of this edge growth; where there is no such phase yet it is flat."""
 
     def state(xi):
-        states = rb.natural_shapes(LEAF, rb.growth.edge(xi))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of large growth, and at branch points
+            states = rb.natural_shapes(LEAF, rb.growth.edge(xi))
         return next((s for s in states if s.phase == phase), states[-1])
 
     return state

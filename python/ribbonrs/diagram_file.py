@@ -49,6 +49,8 @@ DAMAGED = (
     TypeError,
     AttributeError,
     EOFError,
+    ArithmeticError,
+    RuntimeError,
     zipfile.BadZipFile,
     zlib.error,
 )
@@ -103,7 +105,7 @@ def load(path: str | PathLike[str]) -> Diagram:
         raise InputError("path", path, "the name of a file that Diagram.save wrote")
     name = os.fspath(path)
     try:
-        with np.load(path, allow_pickle=False) as file:
+        with open(path, "rb") as raw, np.load(raw, allow_pickle=False) as file:
             written = str(file.get("format")), int(file.get("version", 0))
             if written == (FORMAT, VERSION):
                 return _diagram(file)

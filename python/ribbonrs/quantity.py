@@ -47,22 +47,22 @@ SYMBOLS = (
     (r"growth\.edge\.amplitude", r"edge growth $\xi$"),
     (r"growth\.thickness\.amplitude", r"growth through the thickness $\xi$"),
     (r"growth\.chiral\.amplitude", "shear growth through the thickness $d$"),
-    (r"growth\.(.*)\.amplitude", r"amplitude of the growth \1"),
+    (r"growth\.(.*)\.amplitude", r"amplitude of the growth {1}"),
     (r"ribbon\.thickness", "thickness $h$"),
     (r"ribbon\.length", "length $l_0$"),
-    (r"start\.position\[(\d)\]", r"place of the start along $E_\1$"),
-    (r"end\.position\[(\d)\]", r"place of the end along $E_\1$"),
-    (r"(start|end)\.twist_turns", r"turns of the \1"),
-    (r"(start|end)\.force\[(\d)\]", r"force $F_\2$ on the \1"),
-    (r"(start|end)\.moment\[(\d)\]", r"moment $M_\2$ on the \1"),
-    (r"(start|end)\.(force|moment)", r"\2 on the \1"),
-    (r"gravity\[(\d)\]", r"force per length $p_\1$"),
-    (r"loads\[(\d+)\]\.(force|moment)\[(\d)\]", r"\2 of load \1 along $E_\3$"),
+    (r"start\.position\[(\d)\]", r"place of the start along $E_{up[1]}$"),
+    (r"end\.position\[(\d)\]", r"place of the end along $E_{up[1]}$"),
+    (r"(start|end)\.twist_turns", r"turns of the {1}"),
+    (r"(start|end)\.force\[(\d)\]", r"force $F_{up[2]}$ on the {1}"),
+    (r"(start|end)\.moment\[(\d)\]", r"moment $M_{up[2]}$ on the {1}"),
+    (r"(start|end)\.(force|moment)", r"{2} on the {1}"),
+    (r"gravity\[(\d)\]", r"force per length $p_{up[1]}$"),
+    (r"loads\[(\d+)\]\.(force|moment)\[(\d)\]", r"{2} of load {1} along $E_{up[3]}$"),
     ("load_factor", r"load factor $\lambda$"),
     (r"law\.intrinsic\[0\]", r"intrinsic $\varepsilon^0$"),
-    (r"law\.intrinsic\[(\d)\]", r"intrinsic $K_\1^0$"),
+    (r"law\.intrinsic\[([1-3])\]", r"intrinsic $K_{1}^0$"),
 )
-"""How a parameter of this name is written."""
+"""How a parameter of this name is written: {1} is the first group of the pattern, {up[1]} one more."""
 
 
 def check_quantity(field: str, quantity: object) -> str:
@@ -110,17 +110,18 @@ def label(quantity: str, varies: bool) -> str:
 
 
 def parameter_label(name: str) -> str:
-    """Return what an axis of the parameter says: a symbol, and its name where that tells more."""
-    return f"{next(_written(name), name)}  ({name})"
+    """Return what an axis of the parameter says: a symbol in words, and its name."""
+    return f"{next(_written(name), name)}  ({_plain(name)})"
 
 
 def _written(name: str) -> Iterator[str]:
     for pattern, text in SYMBOLS:
         found = re.fullmatch(pattern, name)
         if found:
-            one_based = [
-                str(int(g) + 1) if g.isdigit() and "growth" not in pattern else g for g in found.groups()
-            ]
-            for i, group in enumerate(one_based, start=1):
-                text = text.replace(f"\\{i}", group)
-            yield text
+            groups = [_plain(group) for group in (found[0], *found.groups())]
+            yield text.format(*groups, up=[int(group) + 1 if group.isdecimal() else 0 for group in groups])
+
+
+def _plain(name: str) -> str:
+    """A name of the user's without mathematics in it."""
+    return name.replace("$", r"\$")

@@ -67,11 +67,11 @@ def test_a_start_says_where_it_is(core, monkeypatch):
     rb.trace(CLAMPED, FORCE, FORCES, start=start)
     assert core[-1][2] is start.course.solution
     assert core[-1][3] == -1e-4
-    flat = rb.natural_shapes(LEAF, rb.growth.edge(0.05))[-1]
+    flat = rb.natural_shapes(LEAF, rb.growth.edge(0.06))[-1]
     monkeypatch.setattr(_core, "trace", nothing(core))
     rb.trace(EDGE, PARAMETER, SPAN, start=flat)
     np.testing.assert_array_equal(core[-1][2], flat.strain)
-    assert core[-1][3] == 0.05
+    assert core[-1][3] == 0.06
 
 
 def test_a_start_with_other_loads_says_how_much_of_them_it_has(core):
@@ -168,7 +168,7 @@ def test_branches(diagram):
         assert (found.section_index, found.stable, found.phase) == (state.section_index, state.stable, phase)
         assert found.scene.growth == rb.growth.edge(0.08)
         assert branch.energy[-1] == pytest.approx(state.energy)
-        assert branch.values("K3")[-1] == state.strain[3]
+        assert branch.values("K3")[-1] == pytest.approx(state.strain[3], rel=1e-12)
     with pytest.raises(ValueError, match="read-only"):
         flat.strains[0] = 0.0
 

@@ -33,21 +33,22 @@ def _table(title: str, headings: tuple[str, ...], numbers: set[str]) -> Table:
 
 
 def _branches_table(diagram: Diagram) -> Table:
-    headings = ("branch", "shape", "points", "from", "to", "stable", "began", "ended", "origin")
+    headings = ("branch", "shape", "points", "from", "to", "stable", "began", "ended")
     table = _table("branches", headings, {"branch", "points", "from", "to"})
     for branch in diagram.branches:
         first, last = (f"{value:.6g}" for value in branch.parameter[[0, -1]].tolist())
-        origin = "" if branch.origin is None else _place(diagram, branch.origin)
-        mirrored = " and its mirror image" if branch.mirrored else ""
+        first_own = 0 if branch.origin is None else 1  # at its origin it is a point of another branch
+        shapes = ", ".join(dict.fromkeys(branch.phases[first_own:]))
+        began, ended = branch.ended
         table.add_row(
             str(branch.number),
-            ", ".join(dict.fromkeys(branch.phases)) + mirrored,
+            shapes + (", mirrored" if branch.mirrored else ""),
             str(branch.parameter.size),
             first,
             last,
             ", ".join(_stable(branch)) or ("no" if branch.known.all() else "not known"),
-            *branch.ended,
-            origin,
+            began if branch.origin is None else _place(diagram, branch.origin),
+            ended,
         )
     return table
 

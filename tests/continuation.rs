@@ -26,7 +26,7 @@ fn natural(from: f64, to: f64, chirality: f64) -> Diagram<Natural> {
         let x = [shape.strain[2] / 0.1, shape.strain[3] / 0.1];
         starts.push(begin(&mut equations, x, 0.0, &limits).unwrap());
     }
-    diagram(&mut equations, starts, false, 3, &limits)
+    diagram(&mut equations, starts, 3, &limits)
 }
 
 fn show<E: Equations>(diagram: &Diagram<E>, scale: f64, from: f64)
@@ -101,7 +101,7 @@ fn lateral() {
         };
         let x = remesh(&start, x);
         let start = begin(&mut equations, x, 0.0, &limits).unwrap();
-        let d = diagram(&mut equations, vec![start], false, 1, &limits);
+        let d = diagram(&mut equations, vec![start], 1, &limits);
         (d, equations.work)
     };
     let (diagram, work) = run();

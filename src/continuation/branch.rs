@@ -364,7 +364,7 @@ const MOVED: f64 = 2e-11;
 /// Whether the branch has come back to its first point.
 fn is_closed<E: Equations>(equations: &mut E, branch: &BranchOf<E>, last: usize) -> bool {
     let (first, a, b) = (&branch.points[0], &branch.points[last], &branch.points[branch.points.len() - 1]);
-    if last < 4 || (first.t - a.t) * (first.t - b.t) > 0.0 {
+    if last < 4 || (first.t - a.t) * (first.t - b.t) > 0.0 || first.along.t * b.along.t < 0.0 {
         return false;
     }
     let [here, there] = [first, b].map(|point| equations.invariants(&point.x, point.t));

@@ -4,7 +4,7 @@ use super::branch::{BranchOf, Ended, Limits, SpecialKind, follow};
 use super::correct::PointOf;
 use super::equations::{Equations, scaled};
 use super::locate::at_value;
-use super::switch::{alike, leaving, stepped};
+use super::switch::{Leaving, alike, leaving, leaving_with_section};
 
 /// Branches and their special points.
 pub struct Diagram<E: Equations> {
@@ -18,115 +18,129 @@ struct Met {
     branches: usize,
 }
 
-/// How near the numbers of two branch points are that are one: their places are known to less than this.
-fn same(a: &[f64], b: &[f64]) -> bool {
-    alike(a, b)
-}
-
-/// Follows the branches through some points, `both` ways if asked, and those that branch off, to a `depth`.
+/// Follows the branches through some points, both ways where the range allows, and those that branch off, to a `depth`.
 pub fn diagram<E: Equations>(
     equations: &mut E,
     starts: Vec<PointOf<E>>,
-    both: bool,
     depth: usize,
     limits: &Limits,
 ) -> Diagram<E> {
     let mut met: Vec<Met> = Vec::new();
     let mut branches: Vec<BranchOf<E>> = Vec::new();
-    let mut level: Vec<usize> = Vec::new();
     for start in starts {
+        // What the branches so far reach is not followed anew.
         if passed(equations, &branches, &start) {
             continue;
         }
-        let mut branch = walked(equations, start.clone(), limits, &met);
-        if both && branch.ended[1] != Ended::Closed {
-            let turned = PointOf::<E> { along: scaled(equations, &start.along, -1.0), ..start };
-            let back = walked(equations, turned, limits, &met);
-            branch = joined(equations, back, branch);
-        }
-        level.push(branches.len());
+        let first = branches.len();
+        let branch = both_ways(equations, start, limits, &met);
+        note(equations, &branch, &mut met);
         branches.push(branch);
-    }
-    for generation in 0..=depth {
-        for &number in &level {
-            note(equations, &branches[number], number, &mut met);
-        }
-        if generation == depth {
-            break;
-        }
-        let mut next = Vec::new();
-        for number in level {
-            let places: Vec<_> = branches[number].special.iter().cloned().enumerate().collect();
-            for (i, special) in places {
-                let at = branches[number].points[special.place].clone();
-                let off = match special.kind {
-                    SpecialKind::BranchPoint => {
-                        let mut numbers = equations.invariants(&at.x, at.t);
-                        numbers.push(at.t);
-                        // Where two branches have met already, all there are are known.
-                        if met.iter().any(|m| {
-                            m.branches > 1 && special.multiplicity == 1 && same(&m.numbers, &numbers)
-                        }) {
-                            continue;
-                        }
-                        leaving(equations, &at, special.multiplicity, limits)
-                    }
-                    SpecialKind::SectionInstability => {
-                        let Some(direction) = equations.section_direction(&at.x, at.t) else { continue };
-                        let first = stepped(equations, &at, &direction, limits);
-                        first
-                            .map(|point| super::switch::Leaving { point, mirrored: true })
-                            .into_iter()
-                            .collect()
-                    }
-                    _ => continue,
-                };
-                for leaving in off {
-                    if limits.interrupted.is_some_and(|asks| asks())
-                        || passed(equations, &branches, &leaving.point)
-                    {
-                        continue;
-                    }
-                    let mut branch = walked(equations, leaving.point, limits, &met);
-                    // The branch begins at the branch point itself.
-                    branch.points.iter_mut().for_each(|point| point.s += 0.0);
-                    branch.points.insert(0, at.clone());
-                    branch.points[0].s = 0.0;
-                    branch.special.iter_mut().for_each(|special| special.place += 1);
-                    branch.ended[0] = Ended::Switched;
-                    branch.origin = Some((number, i));
-                    branch.mirrored = leaving.mirrored;
-                    note(equations, &branch, branches.len(), &mut met);
-                    next.push(branches.len());
-                    branches.push(branch);
-                }
+        let mut level = first..branches.len();
+        for _ in 0..depth {
+            let next = branches.len();
+            for number in level {
+                switch(equations, &mut branches, number, &mut met, limits);
             }
+            level = next..branches.len();
         }
-        level = next;
     }
     Diagram { branches }
 }
 
+/// The branch through a point.
+fn both_ways<E: Equations>(
+    equations: &mut E,
+    start: PointOf<E>,
+    limits: &Limits,
+    met: &[Met],
+) -> BranchOf<E> {
+    let inside = start.t > 0.0 && start.t < 1.0;
+    let ahead = walked(equations, start.clone(), limits, met);
+    if !inside || ahead.ended[1] == Ended::Closed {
+        return ahead;
+    }
+    let turned = PointOf::<E> { along: scaled(equations, &start.along, -1.0), ..start };
+    let back = walked(equations, turned, limits, met);
+    joined(equations, back, ahead)
+}
+
+/// Follows what branches off a branch.
+fn switch<E: Equations>(
+    equations: &mut E,
+    branches: &mut Vec<BranchOf<E>>,
+    number: usize,
+    met: &mut Vec<Met>,
+    limits: &Limits,
+) {
+    let specials = branches[number].special.clone();
+    for (i, special) in specials.into_iter().enumerate() {
+        let at = branches[number].points[special.place].clone();
+        let off = match special.kind {
+            // Where two branches have met already, all there are are known.
+            SpecialKind::BranchPoint if special.multiplicity > 1 || times_met(equations, met, &at) < 2 => {
+                leaving(equations, &at, special.multiplicity, limits)
+            }
+            SpecialKind::SectionInstability => leaving_with_section(equations, &at, limits),
+            _ => continue,
+        };
+        for Leaving { point, mirrored } in off {
+            if limits.interrupted.is_some_and(|asks| asks()) || passed(equations, branches, &point) {
+                continue;
+            }
+            let mut branch = walked(equations, point, limits, met);
+            // It begins at the branch point itself.
+            branch.points.insert(0, at.clone());
+            branch.points[0].s = 0.0;
+            branch.special.iter_mut().for_each(|special| special.place += 1);
+            branch.ended[0] = Ended::Switched;
+            (branch.origin, branch.mirrored) = (Some((number, i)), mirrored);
+            note(equations, &branch, met);
+            branches.push(branch);
+        }
+    }
+}
+
+/// What tells a branch point from others.
+fn numbers<E: Equations>(equations: &mut E, point: &PointOf<E>) -> Vec<f64> {
+    let mut numbers = equations.invariants(&point.x, point.t);
+    numbers.push(point.t);
+    numbers
+}
+
+/// How many branches have met at a branch point.
+fn times_met<E: Equations>(equations: &mut E, met: &[Met], point: &PointOf<E>) -> usize {
+    let here = numbers(equations, point);
+    met.iter().find(|met| alike(&met.numbers, &here)).map_or(0, |met| met.branches)
+}
+
 /// A branch, that ends where it meets a known branch point from the side and would repeat its mirror image.
 fn walked<E: Equations>(equations: &mut E, start: PointOf<E>, limits: &Limits, met: &[Met]) -> BranchOf<E> {
-    let first = start.s;
     follow(equations, start, limits, |equations, point, kind| {
-        let turns = kind == SpecialKind::BranchPoint && point.along.t.abs() < 1e-3;
-        let mut numbers = equations.invariants(&point.x, point.t);
-        numbers.push(point.t);
-        turns && point.s > first && met.iter().any(|m| same(&m.numbers, &numbers))
+        let from_the_side = kind == SpecialKind::BranchPoint && point.along.t.abs() < FROM_THE_SIDE;
+        from_the_side && times_met(equations, met, point) > 0
     })
 }
 
+/// Change of the parameter along the unit tangent below which a branch meets another from the side.
+const FROM_THE_SIDE: f64 = 1e-3;
+
 /// Notes the branch points of a branch.
-fn note<E: Equations>(equations: &mut E, branch: &BranchOf<E>, _number: usize, met: &mut Vec<Met>) {
-    for special in branch.special.iter().filter(|special| special.kind == SpecialKind::BranchPoint) {
-        let point = &branch.points[special.place];
-        let mut numbers = equations.invariants(&point.x, point.t);
-        numbers.push(point.t);
-        match met.iter_mut().find(|m| same(&m.numbers, &numbers)) {
+fn note<E: Equations>(equations: &mut E, branch: &BranchOf<E>, met: &mut Vec<Met>) {
+    let mut places: Vec<usize> = branch
+        .special
+        .iter()
+        .filter(|special| special.kind == SpecialKind::BranchPoint)
+        .map(|special| special.place)
+        .collect();
+    if branch.origin.is_some() {
+        places.push(0);
+    }
+    for place in places {
+        let here = numbers(equations, &branch.points[place]);
+        match met.iter_mut().find(|met| alike(&met.numbers, &here)) {
             Some(known) => known.branches += 1,
-            None => met.push(Met { numbers, branches: 1 }),
+            None => met.push(Met { numbers: here, branches: 1 }),
         }
     }
 }

@@ -38,9 +38,19 @@ pub fn leaving<E: Equations>(
             })
             .collect(),
     };
+    steps(equations, at, &directions, limits)
+}
+
+/// Steps in some directions, one of mirror images.
+fn steps<E: Equations>(
+    equations: &mut E,
+    at: &PointOf<E>,
+    directions: &[DirectionOf<E>],
+    limits: &Limits,
+) -> Vec<Leaving<E>> {
     let mut found: Vec<(Leaving<E>, Vec<f64>)> = Vec::new();
     for direction in directions {
-        let Some(point) = stepped(equations, at, &direction, limits) else { continue };
+        let Some(point) = stepped(equations, at, direction, limits) else { continue };
         let mut numbers = equations.invariants(&point.x, point.t);
         numbers.push(point.t);
         match found.iter_mut().find(|(_, known)| alike(known, &numbers)) {
@@ -49,6 +59,18 @@ pub fn leaving<E: Equations>(
         }
     }
     found.into_iter().map(|(leaving, _)| leaving).collect()
+}
+
+/// The step off a branch where a section becomes unstable, the same all along the ribbon.
+pub fn leaving_with_section<E: Equations>(
+    equations: &mut E,
+    at: &PointOf<E>,
+    limits: &Limits,
+) -> Vec<Leaving<E>> {
+    let Some(direction) = equations.section_direction(&at.x, at.t) else { return Vec::new() };
+    let direction = unit(equations, &direction);
+    let back = scaled(equations, &direction, -1.0);
+    steps(equations, at, &[direction, back], limits)
 }
 
 /// Whether two lists of invariants are of mirror images.
@@ -79,7 +101,7 @@ fn across<E: Equations>(equations: &mut E, at: &PointOf<E>, multiplicity: usize)
 }
 
 /// The first point in a direction.
-pub fn stepped<E: Equations>(
+fn stepped<E: Equations>(
     equations: &mut E,
     at: &PointOf<E>,
     direction: &DirectionOf<E>,

@@ -376,9 +376,8 @@ pub fn trace(
             let first = begun.map_err(|failed| {
                 InvalidInput::new("start", start_value, &format!("an equilibrium: {failed}"))
             })?;
-            let both = t > 0.0 && t < 1.0;
             let first = if t >= 1.0 { turned(&equations, first) } else { first };
-            let found = diagram(&mut equations, vec![first], both, depth, &limits);
+            let found = diagram(&mut equations, vec![first], depth, &limits);
             let stopped = was_interrupted(&found);
             let (special, numbers) = specials(&found.branches, span);
             let equations = Arc::new(Mutex::new(equations));
@@ -434,7 +433,7 @@ pub fn trace_natural(
                 }
             }
         }
-        let found = diagram(&mut equations, starts, false, depth, &limits);
+        let found = diagram(&mut equations, starts, depth, &limits);
         let (special, numbers) = specials(&found.branches, span);
         let branch = |branch: Branch<[f64; 2], [f64; 2]>| {
             let rows = branch.points.iter().map(|point| natural_row(&mut equations, point, span));

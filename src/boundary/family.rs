@@ -7,6 +7,7 @@
 use std::sync::Arc;
 
 use super::ends::End;
+use super::iterate::Layout;
 use super::law::{Law, Rod};
 use super::problem::{LineLoad, PointLoad, Problem};
 use crate::InvalidInput;
@@ -51,6 +52,13 @@ impl Family {
         }
         let law_varies = corners.iter().any(|other| !same_law(&first.law, &other.law));
         Ok(Self { corners, law_varies })
+    }
+
+    /// The states that the loads need anywhere in the family.
+    #[must_use]
+    pub fn layout(&self) -> Layout {
+        let loaded = self.corners.iter().any(|corner| Layout::of(corner) == Layout::Moment);
+        if loaded { Layout::Moment } else { Layout::Constant }
     }
 
     /// Weights of the corners but the first.

@@ -345,16 +345,16 @@ fn restart<E: Equations>(
 /// The state at a branch point on a mesh twice as fine, if that moves the point: a straight ribbon is exact on any mesh, but not the
 /// shape into which it buckles.
 fn unresolved<E: Equations>(equations: &mut E, found: &Found<E>, limits: &Limits) -> Option<E::State> {
-    let Found { point, kind: SpecialKind::BranchPoint, slope: Some((mode, slope)), .. } = found else {
-        return None;
-    };
+    let Found { point, kind: SpecialKind::BranchPoint, slope: Some(slope), .. } = found else { return None };
     let finer = equations.doubled(&point.x, point.t).ok()??;
     let (x, along) = equations.remeshed(&point.x, &point.along.x, &finer, point.t).ok()?;
     let along = Direction { x: along, t: point.along.t };
     let guess = Guess { x, t: point.t, across: Some(&along), sense: Some(&along) };
     let there = corrected(equations, guess, limits.tolerance, true).ok()?.point;
-    let [here, there] = [point, &there].map(|point| point.stability.modes().get(*mode).copied());
-    let moved = (there? - here?) / slope;
+    let least = |point: &PointOf<E>| {
+        point.stability.modes().into_iter().fold(f64::INFINITY, |m: f64, x| m.min(x.abs()))
+    };
+    let moved = (least(&there) - least(point)) / slope;
     (moved.abs() > MOVED).then_some(finer)
 }
 

@@ -8,8 +8,8 @@ use nalgebra::Vector3;
 use super::equations::{Direction, Equations, Failed, Pivot, Stability};
 use crate::InvalidInput;
 use crate::boundary::{
-    Bordered, Correction, Failure, Family, Iterate, Line, Mesh, Problem, Stepper, System, estimate, goal,
-    refined, transferred,
+    Bordered, Correction, Failure, Family, Iterate, Layout, Line, Mesh, Problem, Stepper, System, estimate,
+    goal, refined, transferred,
 };
 use crate::section::Strain;
 
@@ -62,6 +62,8 @@ pub struct Held {
     /// The other parameter, if there are two.
     pub other: f64,
     degree: usize,
+    /// The states that the loads need anywhere in the family.
+    layout: Layout,
     tolerance: f64,
     at: Option<(f64, Arc<Problem>)>,
     nodes: Arc<Vec<f64>>,
@@ -91,11 +93,12 @@ impl Held {
     /// The equations of a family, to a tolerance.
     #[must_use]
     pub fn new(family: Family, other: f64, degree: usize, tolerance: f64) -> Self {
-        let nodes = Arc::new(Vec::new());
+        let (layout, nodes) = (family.layout(), Arc::new(Vec::new()));
         Self {
             family,
             other,
             degree,
+            layout,
             tolerance,
             at: None,
             nodes,
@@ -139,7 +142,7 @@ impl Held {
             }
             (old, _) => {
                 let mesh = Mesh::new(&problem, Self::places(&x.nodes, problem.length), self.degree)?;
-                let mut system = System::new(mesh)?;
+                let mut system = System::with_layout(mesh, self.layout)?;
                 // Changes are measured by the same units all along.
                 if let Some(old) = old {
                     system.units = old.units;

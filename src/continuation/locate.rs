@@ -2,7 +2,7 @@
 
 use super::branch::{Limits, SpecialKind};
 use super::correct::{Guess, PointOf, corrected};
-use super::equations::{Equations, Failed};
+use super::equations::{Equations, Failed, Stability};
 
 /// A special point that was found.
 pub struct Found<E: Equations> {
@@ -12,8 +12,8 @@ pub struct Found<E: Equations> {
     pub kind: SpecialKind,
     /// By how much the index, or that of sections, changes.
     pub multiplicity: usize,
-    /// The mode that vanishes there, and how fast it changes with the parameter.
-    pub slope: Option<(usize, f64)>,
+    /// How fast the mode that vanishes there changes with the parameter.
+    pub slope: Option<f64>,
 }
 
 /// Evaluations of a search that are too many.
@@ -82,61 +82,34 @@ fn between<E: Equations>(
         return;
     }
     let Some(point) = located(equations, a, b, kind, turns) else { return };
-    let kept = if kind == SpecialKind::BranchPoint && !turns {
-        multiple(a, b, &point, multiplicity)
-    } else {
-        multiplicity
-    };
-    let before = (kept < multiplicity && depth < DEEPEST).then(|| beside(equations, a, b, &point));
     let mode = first_mode(a, b);
     let modes = [a, b].map(|point| point.stability.modes().get(mode).copied().unwrap_or(0.0));
-    let slope = (!turns).then_some((mode, (modes[1] - modes[0]) / (b.t - a.t)));
-    found.push(Found { point, kind, multiplicity: kept, slope });
+    let slope = (!turns).then_some((modes[1] - modes[0]) / (b.t - a.t));
     // Those that are not at the same place.
-    if let Some([left, right]) = before {
-        let here = found.pop();
-        if let Some(left) = left {
-            between(equations, a, &left, depth + 1, found);
-        }
-        found.extend(here);
-        if let Some(right) = right {
-            between(equations, &right, b, depth + 1, found);
-        }
+    let aside = ASIDE * (b.s - a.s);
+    let right = (multiplicity > 1 && depth < DEEPEST && point.s + aside < b.s)
+        .then(|| at(equations, a, b, point.s + aside - a.s))
+        .flatten();
+    let changed = |from: &Stability, to: &Stability| match kind {
+        SpecialKind::SectionInstability => from.section_index.abs_diff(to.section_index),
+        _ => from.index.unwrap_or(0).abs_diff(to.index.unwrap_or(0)),
+    };
+    let multiplicity =
+        right.as_ref().map_or(multiplicity, |right| changed(&a.stability, &right.stability).max(1));
+    found.push(Found { point, kind, multiplicity, slope });
+    if let Some(right) = right {
+        between(equations, &right, b, depth + 1, found);
     }
 }
+
+/// How far beside a special point, of the interval it was found in, others are not told from it.
+const ASIDE: f64 = 1e-5;
 
 /// The mode that is the first to change sign.
 fn first_mode<S, C>(a: &super::Point<S, C>, b: &super::Point<S, C>) -> usize {
     let negative =
         |point: &super::Point<S, C>| point.stability.modes().iter().filter(|mode| **mode < 0.0).count();
     negative(a).min(negative(b))
-}
-
-/// How many modes vanish at a branch point between `a` and `b`.
-fn multiple<S, C>(
-    a: &super::Point<S, C>,
-    b: &super::Point<S, C>,
-    point: &super::Point<S, C>,
-    most: usize,
-) -> usize {
-    let [from, to, here] = [a, b, point].map(|point| point.stability.modes());
-    let small = |i: &usize| {
-        let size = from.get(*i).map_or(0.0, |m| m.abs()).max(to.get(*i).map_or(0.0, |m| m.abs()));
-        here[*i].abs() <= 1e-5 * size
-    };
-    (0..here.len()).filter(small).count().clamp(1, most)
-}
-
-/// Points a little before and after one between `a` and `b`.
-fn beside<E: Equations>(
-    equations: &mut E,
-    a: &PointOf<E>,
-    b: &PointOf<E>,
-    point: &PointOf<E>,
-) -> [Option<PointOf<E>>; 2] {
-    let aside = 1e-4 * (b.s - a.s);
-    [point.s - aside, point.s + aside]
-        .map(|s| if a.s < s && s < b.s { at(equations, a, b, s - a.s) } else { None })
 }
 
 /// The point a `length` from `a` toward `b`.

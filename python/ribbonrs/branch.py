@@ -69,6 +69,8 @@ class Branch:
         The special point of the diagram at which it branches off.
     mirrored : bool
         Whether its mirror images are branches too, which are left out.
+    maker, source
+        How its states are made.
     """
 
     number: int

@@ -69,6 +69,8 @@ class Branch:
         The special point of the diagram at which it branches off.
     mirrored : bool
         Whether its mirror images are branches too, which are left out.
+    maker, source
+        How its states are made.
     """
 
     number: int
@@ -173,12 +175,18 @@ class Branch:
         """Yield the states at this value of the parameter, in the order of the branch."""
         for i, here in enumerate(self.parameter.tolist()):
             if here == value:
-                # what another branch has at the same place is not told twice
-                if not (i == 0 and self.origin is not None):
+                if not self._repeated(i):
                     yield self.state(i)
             elif i + 1 < self.parameter.size and (here - value) * (self.parameter[i + 1] - value) < 0.0:
                 fraction = root(partial(self._beyond, value, i))
                 yield self.maker.state(value, *self.source.between(i, fraction)[1:])
+
+    def _repeated(self, i: int) -> bool:
+        """Whether the same state is also a point of another branch, or the other end of this one."""
+        began, ended = self.ended
+        if i == 0:
+            return self.origin is not None or began in ("closed", "joined")
+        return i == self.parameter.size - 1 and ended == "joined"
 
     def _beyond(self, value: float, i: int, fraction: float) -> float:
         """How far the parameter is beyond a value between points i and i + 1."""

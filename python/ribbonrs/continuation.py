@@ -15,7 +15,6 @@ from .course import Held, Uniform
 from .diagram import Diagram
 from .equilibrium import NODES, solve
 from .errors import InputError, RibbonWarning
-from .linear import LinearLaw
 from .parameter import Parameter, parameter_of
 from .problem import problem_of
 from .record import record_of, same
@@ -201,7 +200,7 @@ def _warn_growth(scenes: tuple[Scene, Scene]) -> None:
 
 def _boundary_valued(scene: Scene) -> bool:
     """Whether its states are not all natural shapes of one section."""
-    return scene.loaded or isinstance(scene.law, LinearLaw) or scene.section_law.varies
+    return scene.loaded or scene.section_law.varies
 
 
 def _start(

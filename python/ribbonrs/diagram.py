@@ -146,6 +146,10 @@ def load_diagram(path: str | PathLike[str]) -> Diagram:
     ------
     InputError
         If there is no such file, or it is another one or damaged.
+
+    Examples
+    --------
+    >>> load_diagram("bifurcations.npz").plot("K2", "bifurcations.png")  # doctest: +SKIP
     """
     from .diagram_file import load
 

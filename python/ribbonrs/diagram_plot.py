@@ -46,7 +46,7 @@ SMALLEST = 1e-6
 INK = "0.2"
 DPI = 200.0
 # Inches, for a column of a journal: the diagram, the margins to its left and below it, and the shapes.
-WIDE, HIGH, LEFT, LOW, SHAPES, ROW = 3.4, 2.6, 0.62, 0.48, 1.35, 0.17
+WIDE, HIGH, LEFT, LOW, SHAPES, ROW = 3.0, 2.4, 0.66, 0.66, 1.5, 0.18
 MOST_SHAPES = 3
 
 
@@ -95,7 +95,8 @@ def plot(diagram: Diagram, quantity: str = "K3", path: str | PathLike[str] | Non
     figure = Figure(dpi=DPI, facecolor="white")
     FigureCanvasAgg(figure)
     handles = [*_styles_of(lines), *_marks_of(diagram)]
-    above = 0.28 + ROW * -(-len(handles) // 3)
+    columns = 3 if shown else 2
+    above = 0.28 + ROW * -(-len(handles) // columns)
     size = np.array([LEFT + WIDE + 0.1 + (SHAPES if shown else 0.0), LOW + HIGH + above])
     figure.set_size_inches(*size)
     axes = figure.add_axes((LEFT / size[0], LOW / size[1], WIDE / size[0], HIGH / size[1]))
@@ -105,24 +106,24 @@ def plot(diagram: Diagram, quantity: str = "K3", path: str | PathLike[str] | Non
     for point in diagram.special_points:
         _mark(axes, point, [line for line in lines if line.branch.number == point.branch])
     _set_limits(axes, diagram, lines)
-    axes.set_xlabel(parameter_label(diagram.parameter), fontsize=9, color=INK)
+    axes.set_xlabel(parameter_label(diagram.parameter), fontsize=10, color=INK)
     varies = any(branch.held for branch in diagram.branches)
-    axes.set_ylabel(label(quantity, varies), fontsize=9, color=INK)
-    axes.tick_params(labelsize=8, color=INK, labelcolor=INK)
+    axes.set_ylabel(label(quantity, varies), fontsize=10, color=INK)
+    axes.tick_params(labelsize=9, color=INK, labelcolor=INK)
     axes.locator_params(nbins=6)
     axes.ticklabel_format(scilimits=(-3, 4), useMathText=True)
     for axis in (axes.xaxis, axes.yaxis):
-        axis.get_offset_text().set(fontsize=8, color=INK)
+        axis.get_offset_text().set(fontsize=9, color=INK)
     axes.spines[["top", "right"]].set_visible(False)
     axes.legend(
         handles=handles,
         loc="lower left",
         bbox_to_anchor=(0.0, 1.0 + 0.16 / HIGH),
-        ncols=3,
-        fontsize=7.5,
+        ncols=columns,
+        fontsize=8.5,
         frameon=False,
         borderaxespad=0.2,
-        columnspacing=1.2,
+        columnspacing=1.0,
         handletextpad=0.5,
         labelspacing=0.25,
     )

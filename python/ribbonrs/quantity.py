@@ -110,8 +110,8 @@ def label(quantity: str, varies: bool) -> str:
 
 
 def parameter_label(name: str) -> str:
-    """Return what an axis of the parameter says: a symbol in words, and its name."""
-    return f"{next(_written(name), name)}  ({_plain(name)})"
+    """Return what an axis of the parameter says, in two lines: what it is with its symbol, and its name."""
+    return f"{next(_written(name), name)}\n({_plain(name)})"
 
 
 def _written(name: str) -> Iterator[str]:

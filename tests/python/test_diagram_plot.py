@@ -42,7 +42,7 @@ def test_stability_marks_and_images(natural):
     np.testing.assert_array_equal(mirrored, -bent)
     assert not flat.any()
     assert max(solid[1].get_xdata()) == pytest.approx(0.04546738)
-    assert axes.get_xlabel() == r"edge growth $\xi$  (growth.edge.amplitude)"
+    assert axes.get_xlabel() == r"edge growth $\xi$" "\n(growth.edge.amplitude)"
     assert axes.get_ylabel() == "curvature $K_2$"
     # the flat and the bent ribbon beside it; the twisted one is unstable
     assert [beside.texts[0].get_text() for beside in figure.axes[1:]] == ["a", "b"]
@@ -86,12 +86,12 @@ def test_every_name_has_a_label():
     assert all(label(quantity, True) for quantity in QUANTITIES)
     assert label("end.moment[1]", False) == "moment $M_2$ on the end"
     assert label("position[2]", False) == "place of the end along $E_3$"
-    assert parameter_label("loads[0].force[2]") == "force of load 0 along $E_3$  (loads[0].force[2])"
-    assert parameter_label("law.intrinsic[2]") == "intrinsic $K_2^0$  (law.intrinsic[2])"
-    assert parameter_label("end.force[2]") == "force $F_3$ on the end  (end.force[2])"
+    assert parameter_label("loads[0].force[2]") == "force of load 0 along $E_3$\n(loads[0].force[2])"
+    assert parameter_label("law.intrinsic[2]") == "intrinsic $K_2^0$\n(law.intrinsic[2])"
+    assert parameter_label("end.force[2]") == "force $F_3$ on the end\n(end.force[2])"
     assert parameter_label("growth.vein1.amplitude").startswith("amplitude of the growth vein1")
-    assert parameter_label("growth.a$_{x}.amplitude").startswith(r"amplitude of the growth a\$_{x} ")
-    assert parameter_label("growth.1.amplitude").startswith("amplitude of the growth 1 ")
+    assert parameter_label("growth.a$_{x}.amplitude").startswith("amplitude of the growth a\\$_{x}\n")
+    assert parameter_label("growth.1.amplitude").startswith("amplitude of the growth 1\n")
 
 
 def test_a_smooth_curve_is_a_circle_and_turns_at_folds():

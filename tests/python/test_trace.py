@@ -7,7 +7,7 @@ import fake_core
 import numpy as np
 import pytest
 import ribbonrs as rb
-from fake_core import BENDS, CLAMPED, EDGE, LEAF, FakeTrace, edge_trace, pressed, pressed_trace
+from fake_core import BENDS, CLAMPED, EDGE, LEAF, FakeBranch, FakeTrace, edge_trace, pressed, pressed_trace
 from refusal import refuses
 from ribbonrs import _core
 from ribbonrs.check import number
@@ -220,6 +220,13 @@ def test_states_at_a_value(diagram, held):
     (state,) = held.states_at(-1.5e-4)
     assert state.reactions.end.force[2] == pytest.approx(-1.5e-4)
     refuses("value", lambda: diagram.states_at("0.06"))
+
+
+@pytest.mark.parametrize(("ended", "count"), [(("span", "span"), 2), (("closed", "closed"), 1)])
+def test_the_ends_of_a_closed_branch_are_one_state(core, monkeypatch, ended, count):
+    branch = FakeBranch([0.0, -1e-4, 0.0], pressed, ended)
+    monkeypatch.setattr(_core, "trace", lambda *arguments: FakeTrace([branch], []))
+    assert len(rb.trace(CLAMPED, FORCE, FORCES).states_at(0.0)) == count
 
 
 def test_zeros_of_functions(core):

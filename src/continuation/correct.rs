@@ -102,7 +102,9 @@ pub fn corrected<E: Equations>(
         }
         before = again;
         if (again <= tolerance || rounding) && !(exactly && size > EXACT) {
-            let stability = equations.stability(&linearised.0, linearised.1);
+            let x = equations.settled(x, t)?;
+            let place = equations.settled(linearised.0, linearised.1)?;
+            let stability = equations.stability(&place, linearised.1);
             let along = unit(equations, &line);
             let backward = sense.is_some_and(|sense| dot(equations, sense, &along) < 0.0);
             let along = scaled(equations, &along, if backward { -1.0 } else { 1.0 });

@@ -87,6 +87,12 @@ pub trait Equations {
     /// `x` changed by `factor` times a change.
     fn moved(&mut self, x: &Self::State, change: &Self::Change, factor: f64) -> Self::State;
 
+    /// `x` with what is known but for the parameter, such as forces that given loads take away, as it is at `t`.
+    ///
+    /// # Errors
+    /// Where that cannot be.
+    fn settled(&mut self, x: Self::State, t: f64) -> Result<Self::State, Failed>;
+
     /// The sum of changes times factors.
     fn sum(&self, parts: &[(f64, &Self::Change)]) -> Self::Change;
 

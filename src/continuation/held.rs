@@ -172,9 +172,13 @@ impl Equations for Held {
     fn moved(&mut self, x: &HeldState, change: &Correction, factor: f64) -> HeldState {
         let t = self.at.as_ref().map_or(0.0, |(t, _)| *t);
         let Ok(system) = self.system(x, t) else { return x.clone() };
-        let mut moved = x.x.moved(change, factor, &system.units);
-        system.settle(&mut moved, 1.0);
-        HeldState { nodes: Arc::clone(&x.nodes), x: moved }
+        HeldState { nodes: Arc::clone(&x.nodes), x: x.x.moved(change, factor, &system.units) }
+    }
+
+    fn settled(&mut self, mut x: HeldState, t: f64) -> Result<HeldState, Failed> {
+        let system = self.system(&x, t)?;
+        system.settle(&mut x.x, 1.0);
+        Ok(x)
     }
 
     fn sum(&self, parts: &[(f64, &Correction)]) -> Correction {

@@ -81,10 +81,8 @@ fn between<E: Equations>(
         between(equations, &middle, b, depth + 1, found);
         return;
     }
-    let Some(point) = located(equations, a, b, kind, turns) else { return };
-    let mode = first_mode(a, b);
-    let modes = [a, b].map(|point| point.stability.modes().get(mode).copied().unwrap_or(0.0));
-    let slope = (!turns).then_some((modes[1] - modes[0]) / (b.t - a.t));
+    let Some((point, slope)) = located(equations, a, b, kind, turns) else { return };
+    let slope = slope.filter(|_| kind == SpecialKind::BranchPoint && !turns);
     // Those that are not at the same place.
     let aside = ASIDE * (b.s - a.s);
     let right = (multiplicity > 1 && depth < DEEPEST && point.s + aside < b.s)
@@ -168,14 +166,14 @@ pub fn at_value<E: Equations>(
     None
 }
 
-/// The place of a change between two points: what is on its two sides decides, a smooth function of it where to look.
+/// The place of a change between two points, and the slope there of a function that vanishes: what is on its two sides decides, a smooth function of it where to look.
 fn located<E: Equations>(
     equations: &mut E,
     a: &PointOf<E>,
     b: &PointOf<E>,
     kind: SpecialKind,
     turns: bool,
-) -> Option<PointOf<E>> {
+) -> Option<(PointOf<E>, Option<f64>)> {
     let first = a.stability.clone();
     let mode = first_mode(a, b);
     let function = |point: &PointOf<E>| match kind {
@@ -191,6 +189,7 @@ fn located<E: Equations>(
     let (mut low, mut high) = (a.clone(), b.clone());
     let (mut f_low, mut f_high) = (function(a), function(b));
     let mut best: Option<PointOf<E>> = None;
+    let (mut last, mut slope) = (None, None);
     for tries in 0..MOST {
         let length = high.s - low.s;
         let smooth = f_low * f_high < 0.0;
@@ -199,7 +198,7 @@ fn located<E: Equations>(
         let step =
             if smooth && tries % 4 != 3 { secant.clamp(1e-3 * length, 0.999 * length) } else { 0.5 * length };
         let Some(mut point) = at(equations, &low, &high, step) else {
-            return best;
+            return best.map(|best| (best, slope));
         };
         point.s = low.s + step;
         let value = function(&point);
@@ -209,6 +208,11 @@ fn located<E: Equations>(
         let far = best.as_ref().map_or(f64::INFINITY, |best| (best.s - point.s).abs());
         let is_before = before(&point);
         best = Some(point.clone());
+        if let Some((t, before)) = last.replace((point.t, value)) {
+            slope = Some((value - before) / (point.t - t))
+                .filter(|slope| slope.is_finite() && *slope != 0.0)
+                .or(slope);
+        }
         if is_before {
             // Illinois: the value of an end that stays is halved.
             (low, f_low, f_high) = (point, value, 0.5 * f_high);
@@ -220,5 +224,5 @@ fn located<E: Equations>(
             break;
         }
     }
-    best
+    best.map(|best| (best, slope))
 }

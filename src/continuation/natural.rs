@@ -106,6 +106,10 @@ impl Equations for Natural {
         [x[0] + factor * change[0], x[1] + factor * change[1]]
     }
 
+    fn settled(&mut self, x: [f64; 2], _: f64) -> Result<[f64; 2], Failed> {
+        Ok(x)
+    }
+
     fn sum(&self, parts: &[(f64, &[f64; 2])]) -> [f64; 2] {
         let add = |sum: [f64; 2], (factor, part): &(f64, &[f64; 2])| {
             [sum[0] + factor * part[0], sum[1] + factor * part[1]]

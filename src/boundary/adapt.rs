@@ -27,11 +27,19 @@ pub struct Estimate {
 /// The defect that stands for that of an element whose half steps cannot be solved for.
 const UNKNOWN: f64 = 1e-2;
 
-/// Estimates the error of `x`, at which `system` was linearised, with the law violated by `offset` at the stages.
+/// By how much each element misses its end.
+pub struct Defects {
+    /// Of position, rotation, and moment about the origin, in the units of the system.
+    pub gaps: Vec<[f64; 9]>,
+    sizes: Vec<f64>,
+    rates: Vec<f64>,
+}
+
+/// The defects of `x`, with the law violated by `offset` at the stages.
 ///
 /// # Errors
 /// Where a section is refused.
-pub fn estimate(system: &mut System, x: &Iterate, offset: &[Strain]) -> Result<Estimate, InvalidInput> {
+pub fn defects(system: &System, x: &Iterate, offset: &[Strain]) -> Result<Defects, InvalidInput> {
     let mesh = &system.mesh;
     let mut stepper = Stepper::new(&mesh.problem, mesh.gauss)?;
     let degree = mesh.gauss.degree;
@@ -66,6 +74,15 @@ pub fn estimate(system: &mut System, x: &Iterate, offset: &[Strain]) -> Result<E
         let compliance = mesh.responses(i, &mut made)?[0].compliance;
         rates.push((at.force.norm() * compliance.rows(1, 3).max()).sqrt());
     }
+    Ok(Defects { gaps, sizes, rates })
+}
+
+/// Estimates the error of `x`, at which `system` was linearised, with the law violated by `offset` at the stages.
+///
+/// # Errors
+/// Where a section is refused.
+pub fn estimate(system: &mut System, x: &Iterate, offset: &[Strain]) -> Result<Estimate, InvalidInput> {
+    let Defects { gaps, sizes, rates } = defects(system, x, offset)?;
     let correction = system.correction_for(gaps);
     let mut error = largest(&correction, &system.mesh.problem);
     if sizes.contains(&UNKNOWN) {

@@ -223,6 +223,14 @@ impl Chain {
         self.pivot
     }
 
+    /// Logarithm of the absolute determinant of all but the last panel.
+    #[must_use]
+    pub fn log_determinant(&self) -> f64 {
+        let stride = self.stride();
+        let panels = self.panels.chunks_exact(self.panel_size());
+        panels.map(|panel| (0..self.n).map(|k| panel[k * stride + k].abs()).product::<f64>().ln()).sum()
+    }
+
     /// The last panel before its elimination, by rows: of the last node, the constants, and the slack of a border.
     #[must_use]
     pub fn last(&self) -> DMatrix<f64> {

@@ -224,7 +224,24 @@ impl System {
         order.iter().take(count).map(line).collect()
     }
 
-    /// What the residual last evaluated changes by with the parameter, as the factors were bordered.
+    /// Logarithm of the absolute determinant of the equations with a parameter, which vanishes at branch points alone; NaN if it is not
+    /// known.
+    #[must_use]
+    pub fn log_determinant(&self, bordered: &Bordered) -> f64 {
+        let Kind::Chain { factors, .. } = &bordered.0 else { return f64::NAN };
+        let elements: f64 = self.elements.iter().map(|element| element.log_determinant()).sum();
+        elements + self.chain.log_determinant() + factors.determinant().abs().ln()
+    }
+
+    /// The error of the parameter that gaps between the elements stand for, on the line of solutions.
+    #[must_use]
+    pub fn parameter_error(&mut self, bordered: &Bordered, gaps: Vec<[f64; 9]>) -> f64 {
+        let strains = vec![Strain::zeros(); self.mesh.stages()];
+        self.residual = Residual { strains, gaps, ..Residual::default() };
+        self.particular(bordered).t
+    }
+
+    /// The line of solutions for a residual, from that of the last panel.
     fn line(&self, mut rhs: Rhs, by_parameter: &Rhs, y: &[f64]) -> Line {
         let (last, t) = y.split_at(y.len() - 1);
         let t = t[0];

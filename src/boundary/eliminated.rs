@@ -70,6 +70,13 @@ impl Eliminated {
         }
     }
 
+    /// Logarithm of the absolute determinant of the Jacobian of the strains, once they are eliminated.
+    #[must_use]
+    pub fn log_determinant(&self) -> f64 {
+        let (size, stride) = (self.swaps.len(), self.width());
+        (0..size).map(|k| self.block[k * stride + k].abs()).product::<f64>().ln()
+    }
+
     /// The Jacobian of the stages and, beside it, its columns for the inputs: rows of [`Eliminated::width`] numbers,
     /// as long as the strains are not eliminated.
     #[must_use]

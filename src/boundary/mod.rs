@@ -50,7 +50,7 @@ mod symmetric;
 mod system;
 mod transfer;
 
-pub use adapt::{estimate, refined, transferred};
+pub use adapt::{defects, estimate, refined, transferred};
 pub use correct::{Bordered, Line};
 pub use ends::{At, End, Hold};
 pub use family::Family;
@@ -64,6 +64,5 @@ pub use problem::{LineLoad, PointLoad, Problem};
 pub use report::{Report, Status};
 pub use solution::{Energies, SectionState, Solution, Wrench, energies};
 pub use solve::{DEGREE, Settings, goal};
-pub use stability::Inertia;
 pub use step::Stepper;
 pub use system::{Failure, Residual, Sections, System, Targets};

@@ -143,80 +143,26 @@ fn symmetric(k: &Matrix6<f64>) -> Matrix6<f64> {
     0.5 * (k + k.transpose())
 }
 
-/// What the signs of the pivots say of the index.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Inertia {
-    /// Negative eigenvalues of the pivots but the last, less those of the multipliers in all.
-    inner: isize,
-    /// The last pivot: of the last element, of what is behind it and of what the end leaves free; padded by ones.
-    last: SMatrix<f64, LAST, LAST>,
-    zero: f64,
-}
-
-/// Multipliers and poses of the last element, its wrench, and six freedoms at most.
-const LAST: usize = 24;
-
-impl Inertia {
-    /// The index; `None` where it cannot be told.
-    #[must_use]
-    pub fn index(&self) -> Option<usize> {
-        let shift = SMatrix::<f64, LAST, LAST>::identity() * (self.zero * self.last.amax());
-        let negative = Symmetric::new(&(self.last - shift))?.negative(0.0);
-        usize::try_from(self.inner + negative as isize).ok()
-    }
-
-    /// Eigenvalues of the last pivot, ascending: smooth along a branch, those that change sign vanish where the whole is singular.
-    #[must_use]
-    pub fn modes(&self) -> Vec<f64> {
-        let mut modes: Vec<f64> = self.last.symmetric_eigenvalues().iter().copied().collect();
-        modes.sort_by(f64::total_cmp);
-        modes
-    }
-}
-
-/// Eliminates the chain; `None` where the index cannot be told.
+/// The index under the end conditions; `None` where it cannot be told.
 #[must_use]
-pub fn inertia(problem: &Problem, rows: &[Rows], places: &[Place], units: &Units) -> Option<Inertia> {
+pub fn index(problem: &Problem, rows: &[Rows], places: &[Place], units: &Units) -> Option<usize> {
     let rigid = problem.law.at(0.0).ok()?.compliance.min() == 0.0;
     let free = freedom(problem.ends[0].hold);
     let springs = &free * free.transpose() / -SPRING;
     let mut behind: Matrix6<f64> = SMatrix::from_iterator(springs.iter().copied());
-    let mut inner = 0_isize;
-    let elements = rows.iter().zip(places.windows(2)).enumerate();
-    for (i, (row, ends)) in elements {
+    let mut index = 0_isize;
+    for (row, ends) in rows.iter().zip(places.windows(2)) {
         let element = Blocks::new(row, [&ends[0], &ends[1]], units)?;
         // An element so long that it buckles by itself, held at its start alone: its strains were eliminated at that.
         let softness = -element.pp;
-        inner += Symmetric::new(&softness)?.negative(BUCKLED * softness.amax()) as isize - 6;
+        index += Symmetric::new(&softness)?.negative(BUCKLED * softness.amax()) as isize - 6;
         let mut pivot = SMatrix::<f64, 12, 12>::zeros();
         pivot.fixed_view_mut::<6, 6>(0, 0).copy_from(&behind);
         pivot.fixed_view_mut::<6, 6>(0, 6).fill_with_identity();
         pivot.fixed_view_mut::<6, 6>(6, 0).fill_with_identity();
         pivot.fixed_view_mut::<6, 6>(6, 6).copy_from(&element.dd);
-        if i + 1 == rows.len() {
-            // The whole may be singular where this pivot and what is left each are not: it stays.
-            let mut last = SMatrix::<f64, LAST, LAST>::identity();
-            last.fixed_view_mut::<12, 12>(0, 0).copy_from(&pivot);
-            last.fixed_view_mut::<6, 6>(6, 12).copy_from(&element.dp);
-            last.fixed_view_mut::<6, 6>(12, 6).copy_from(&element.dp.transpose());
-            last.fixed_view_mut::<6, 6>(12, 12).copy_from(&element.pp);
-            let free = freedom(problem.ends[1].hold);
-            last.view_mut((12, 18), (6, free.ncols())).copy_from(&free);
-            last.view_mut((18, 12), (free.ncols(), 6)).copy_from(&free.transpose());
-            last.view_mut((18, 18), (free.ncols(), free.ncols())).fill(0.0);
-            if !last.iter().all(|x| x.is_finite()) {
-                return None;
-            }
-            // No flexibility at all is a little of it; of gliding there is neither more nor less.
-            let zero = match (problem.glides(), rigid) {
-                (true, _) => -GLIDING,
-                (false, true) => ROUNDING,
-                (false, false) => 0.0,
-            };
-            return Some(Inertia { inner: inner - 6, last, zero });
-        }
         let pivot = Symmetric::new(&pivot)?;
-        inner += pivot.negative(0.0) as isize;
+        index += pivot.negative(0.0) as isize;
         let mut own = Matrix6::zeros();
         for (column, dp) in element.dp.column_iter().enumerate() {
             let mut rhs = [0.0; 12];
@@ -225,5 +171,20 @@ pub fn inertia(problem: &Problem, rows: &[Rows], places: &[Place], units: &Units
         }
         behind = symmetric(&(element.pp - element.dp.transpose() * own));
     }
-    None
+    // What the end leaves free, padded by ones.
+    let free = freedom(problem.ends[1].hold);
+    let mut last = SMatrix::<f64, 12, 12>::identity();
+    last.fixed_view_mut::<6, 6>(0, 0).copy_from(&behind);
+    last.view_mut((0, 6), (6, free.ncols())).copy_from(&free);
+    last.view_mut((6, 0), (free.ncols(), 6)).copy_from(&free.transpose());
+    last.view_mut((6, 6), (free.ncols(), free.ncols())).fill(0.0);
+    // No flexibility at all is a little of it; of gliding there is neither more nor less.
+    let zero = match (problem.glides(), rigid) {
+        (true, _) => -GLIDING,
+        (false, true) => ROUNDING,
+        (false, false) => 0.0,
+    };
+    let last = last - SMatrix::identity() * (zero * behind.amax());
+    index += Symmetric::new(&last)?.negative(0.0) as isize - 6;
+    usize::try_from(index).ok()
 }

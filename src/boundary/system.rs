@@ -14,7 +14,7 @@ use super::iterate::{Iterate, Layout, settle};
 use super::mesh::Mesh;
 use super::problem::Problem;
 use super::sparse::{Blocks, Sparse};
-use super::stability::{Inertia, Place, inertia};
+use super::stability::{Place, index};
 use super::transfer::{Anchor, Flexibility, Rows, cayley, transfer};
 use crate::InvalidInput;
 use crate::section::Strain;
@@ -476,12 +476,12 @@ impl System {
     /// potential; `None` where it cannot be told.
     pub fn index(&mut self, x: &Iterate, targets: &Targets) -> Option<usize> {
         self.linearise_open(x, targets).ok()?;
-        self.inertia(x, targets.load)?.index()
+        self.index_here(x, targets.load)
     }
 
-    /// What the elements that were just linearised say of the index; `None` where it cannot be told.
+    /// The same, where the equations were just linearised.
     #[must_use]
-    pub fn inertia(&self, x: &Iterate, load: f64) -> Option<Inertia> {
+    pub fn index_here(&self, x: &Iterate, load: f64) -> Option<usize> {
         if self.sparse.is_some() || !self.mesh.problem.is_conservative() {
             return None;
         }
@@ -490,7 +490,7 @@ impl System {
             Place { position: at.position, force: [at.force + jump, at.force], moment: at.moment() }
         };
         let places: Vec<Place> = x.nodes.iter().enumerate().map(place).collect();
-        inertia(&self.mesh.problem, &self.transfers, &places, &self.units)
+        index(&self.mesh.problem, &self.transfers, &places, &self.units)
     }
 
     /// Condition number of what is left when all nodes but the last are eliminated.

@@ -4,6 +4,7 @@ use super::correct::{Corrected, Guess, Point, PointOf, corrected};
 use super::equations::{Direction, Equations, Failed, dot, scaled};
 use super::locate::{Found, special_points};
 use super::predict::weights;
+use super::switch::{across, stepped};
 
 /// How far a branch is followed, and how well.
 #[derive(Clone, Debug)]
@@ -342,23 +343,17 @@ fn restart<E: Equations>(
     Ok(())
 }
 
-/// The state at a branch point on a mesh twice as fine, if that moves the point: a straight ribbon is exact on any mesh, but not the
+/// The state at a branch point on a mesh twice as fine, if this one is too coarse: a straight ribbon is exact on any mesh, but not the
 /// shape into which it buckles.
 fn unresolved<E: Equations>(equations: &mut E, found: &Found<E>, limits: &Limits) -> Option<E::State> {
-    let Found { point, kind: SpecialKind::BranchPoint, slope: Some(slope), .. } = found else { return None };
-    let finer = equations.doubled(&point.x, point.t).ok()??;
-    let (x, along) = equations.remeshed(&point.x, &point.along.x, &finer, point.t).ok()?;
-    let along = Direction { x: along, t: point.along.t };
-    let guess = Guess { x, t: point.t, across: Some(&along), sense: Some(&along) };
-    let there = corrected(equations, guess, limits.tolerance, true).ok()?.point;
-    let least = |point: &PointOf<E>| {
-        point.stability.modes().into_iter().fold(f64::INFINITY, |m: f64, x| m.min(x.abs()))
-    };
-    let moved = (least(&there) - least(point)) / slope;
-    (moved.abs() > MOVED).then_some(finer)
+    let Found { point, kind: SpecialKind::BranchPoint, multiplicity } = found else { return None };
+    let across = across(equations, point, *multiplicity).into_iter().next()?;
+    let aside = stepped(equations, point, &across, limits)?;
+    let error = equations.parameter_error(&aside.x, aside.t, &across).ok()?;
+    if error.abs() < MOVED { None } else { equations.doubled(&point.x, point.t).ok()? }
 }
 
-/// By how much a finer mesh may move a branch point.
+/// Error of the parameter at a branch point that is too large.
 const MOVED: f64 = 2e-11;
 
 /// Whether the branch has come back to its first point.

@@ -48,8 +48,8 @@ const ITERATIONS: usize = 10;
 const SMALL: f64 = 1e-2;
 /// Tangent and stability are exact enough if the last correction before them was below this.
 const EXACT: f64 = 1e-7;
-/// Below this corrections that no longer shrink are rounding.
-const ROUNDING: f64 = 1e-9;
+/// Below this corrections that no longer shrink are rounding, which a branch point near by amplifies along the other branch.
+const ROUNDING: [f64; 2] = [1e-9, 1e-7];
 
 /// The equilibrium near a guess, to `tolerance`. Tangent and stability are those where the equations were last linearised, before
 /// a correction below [`SMALL`], or, if `exactly`, below [`EXACT`].
@@ -63,6 +63,7 @@ pub fn corrected<E: Equations>(
     exactly: bool,
 ) -> Result<Corrected<E>, Failed> {
     let Guess { mut x, mut t, across, sense } = guess;
+    let negligible = ROUNDING[usize::from(exactly)];
     let (mut before, mut first) = (f64::INFINITY, f64::INFINITY);
     for _ in 0..ITERATIONS {
         equations.linearise(&x, t, across)?;
@@ -82,7 +83,7 @@ pub fn corrected<E: Equations>(
         if first == f64::INFINITY {
             first = size;
         }
-        if !(size < 0.5 * before || size < ROUNDING) {
+        if !(size < 0.5 * before || size < negligible) {
             return Err(Failed::Diverged(size));
         }
         let linearised = (x.clone(), t);
@@ -96,8 +97,8 @@ pub fn corrected<E: Equations>(
         let (change, again) = step(equations)?;
         x = equations.moved(&x, &change.x, 1.0);
         t += change.t;
-        let rounding = size < ROUNDING && again < ROUNDING;
-        if !(again < 0.5 * size || rounding) {
+        let rounding = size < negligible && again < negligible && again >= 0.25 * size;
+        if !(again <= 0.5 * size || rounding) {
             return Err(Failed::Diverged(again));
         }
         before = again;

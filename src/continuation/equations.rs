@@ -3,7 +3,6 @@
 use thiserror::Error;
 
 use crate::InvalidInput;
-use crate::boundary::Inertia;
 
 /// A change of the state and of the parameter.
 #[derive(Clone, Debug)]
@@ -23,20 +22,9 @@ pub struct Stability {
     pub section: f64,
     /// Number of independent ways to lower the energy, where every section is stable and the loads have a potential.
     pub index: Option<usize>,
-    /// What the index changes with.
-    pub pivot: Pivot,
-}
-
-/// A symmetric matrix an eigenvalue of which vanishes where the index changes.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub enum Pivot {
-    /// It is not known.
-    #[default]
-    None,
-    /// By its eigenvalues, ascending.
-    Modes([f64; 2]),
-    /// The last pivot of a chain.
-    Chain(Box<Inertia>),
+    /// Logarithm of the absolute determinant of the equations with the parameter: minus infinity at a branch point. NaN if it is not
+    /// known.
+    pub log_determinant: f64,
 }
 
 impl Stability {
@@ -44,16 +32,6 @@ impl Stability {
     #[must_use]
     pub fn is_stable(&self) -> Option<bool> {
         if self.section_index > 0 { Some(false) } else { self.index.map(|index| index == 0) }
-    }
-
-    /// Eigenvalues that are smooth along a branch, ascending: those that change sign vanish where the index changes.
-    #[must_use]
-    pub fn modes(&self) -> Vec<f64> {
-        match &self.pivot {
-            Pivot::None => Vec::new(),
-            Pivot::Modes(modes) => modes.to_vec(),
-            Pivot::Chain(inertia) => inertia.modes(),
-        }
     }
 }
 
@@ -136,6 +114,17 @@ pub trait Equations {
     /// # Errors
     /// Where that cannot be.
     fn refined(&mut self, x: &Self::State, t: f64) -> Result<Option<Self::State>, Failed>;
+
+    /// The error of the parameter at a branch point on this mesh, from a direction in which a branch leaves it.
+    ///
+    /// # Errors
+    /// Where that cannot be.
+    fn parameter_error(
+        &mut self,
+        x: &Self::State,
+        t: f64,
+        across: &Direction<Self::Change>,
+    ) -> Result<f64, Failed>;
 
     /// The state on a mesh twice as fine, if it has one.
     ///

@@ -5,11 +5,11 @@ use std::time::Instant;
 
 use nalgebra::Vector3;
 
-use super::equations::{Direction, Equations, Failed, Pivot, Stability};
+use super::equations::{Direction, Equations, Failed, Stability};
 use crate::InvalidInput;
 use crate::boundary::{
-    Bordered, Correction, Failure, Family, Iterate, Layout, Line, Mesh, Problem, Stepper, System, estimate,
-    goal, refined, transferred,
+    Bordered, Correction, Failure, Family, Iterate, Layout, Line, Mesh, Problem, Stepper, System, defects,
+    estimate, goal, refined, transferred,
 };
 use crate::section::Strain;
 
@@ -241,11 +241,12 @@ impl Equations for Held {
     fn stability(&mut self, x: &HeldState, _: f64) -> Stability {
         let Some(system) = &self.system else { return Stability::default() };
         let sections = system.sections;
-        let inertia = self.work.index.of(|| system.inertia(&x.x, 1.0));
         let index =
-            if sections.index == 0 { inertia.as_ref().and_then(|inertia| inertia.index()) } else { None };
-        let pivot = inertia.map_or(Pivot::None, |inertia| Pivot::Chain(Box::new(inertia)));
-        Stability { section_index: sections.index, section: sections.least.min(1e300), index, pivot }
+            if sections.index > 0 { None } else { self.work.index.of(|| system.index_here(&x.x, 1.0)) };
+        let log_determinant =
+            self.bordered.as_ref().map_or(f64::NAN, |bordered| system.log_determinant(bordered));
+        let section = sections.least.min(1e300);
+        Stability { section_index: sections.index, section, index, log_determinant }
     }
 
     fn invariants(&mut self, x: &HeldState, _: f64) -> Vec<f64> {
@@ -280,6 +281,18 @@ impl Equations for Held {
         let system = self.system(x, t)?;
         let nodes = refined(&system.mesh, &estimated, MARGIN * tolerance);
         Ok(Some(transferred_to(&system.mesh, &x.x, nodes, degree)?))
+    }
+
+    fn parameter_error(
+        &mut self,
+        x: &HeldState,
+        t: f64,
+        across: &Direction<Correction>,
+    ) -> Result<f64, Failed> {
+        self.linearise(x, t, Some(across))?;
+        let (Some(system), Some(bordered)) = (&mut self.system, &self.bordered) else { return Ok(0.0) };
+        let gaps = self.work.meshes.of(|| defects(system, &x.x, &[]))?.gaps;
+        Ok(system.parameter_error(bordered, gaps))
     }
 
     fn doubled(&mut self, x: &HeldState, t: f64) -> Result<Option<HeldState>, Failed> {

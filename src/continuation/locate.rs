@@ -12,14 +12,10 @@ pub struct Found<E: Equations> {
     pub kind: SpecialKind,
     /// By how much the index, or that of sections, changes.
     pub multiplicity: usize,
-    /// How fast the mode that vanishes there changes with the parameter.
-    pub slope: Option<f64>,
 }
 
 /// Evaluations of a search that are too many.
 const MOST: usize = 60;
-/// Error of the parameter that is small enough.
-const TOLERANCE: f64 = 2e-12;
 /// Depth to which an interval with several special points is divided.
 const DEEPEST: usize = 12;
 
@@ -41,12 +37,7 @@ pub fn special_points<E: Equations>(
             .filter(|pair| (pair[0].t - value) * (pair[1].t - value) < 0.0)
             .filter_map(|pair| at_value(equations, pair[0], pair[1], value))
             .collect();
-        found.extend(met.into_iter().map(|point| Found {
-            point,
-            kind: SpecialKind::Value,
-            multiplicity: 0,
-            slope: None,
-        }));
+        found.extend(met.into_iter().map(|point| Found { point, kind: SpecialKind::Value, multiplicity: 0 }));
         found.sort_by(|a, b| a.point.s.total_cmp(&b.point.s));
     }
     found
@@ -81,8 +72,7 @@ fn between<E: Equations>(
         between(equations, &middle, b, depth + 1, found);
         return;
     }
-    let Some((point, slope)) = located(equations, a, b, kind, turns) else { return };
-    let slope = slope.filter(|_| kind == SpecialKind::BranchPoint && !turns);
+    let Some(point) = located(equations, a, b, kind, turns, multiplicity) else { return };
     // Those that are not at the same place.
     let aside = ASIDE * (b.s - a.s);
     let right = (multiplicity > 1 && depth < DEEPEST && point.s + aside < b.s)
@@ -94,7 +84,7 @@ fn between<E: Equations>(
     };
     let multiplicity =
         right.as_ref().map_or(multiplicity, |right| changed(&a.stability, &right.stability).max(1));
-    found.push(Found { point, kind, multiplicity, slope });
+    found.push(Found { point, kind, multiplicity });
     if let Some(right) = right {
         between(equations, &right, b, depth + 1, found);
     }
@@ -102,13 +92,6 @@ fn between<E: Equations>(
 
 /// How far beside a special point, of the interval it was found in, others are not told from it.
 const ASIDE: f64 = 1e-5;
-
-/// The mode that is the first to change sign.
-fn first_mode<S, C>(a: &super::Point<S, C>, b: &super::Point<S, C>) -> usize {
-    let negative =
-        |point: &super::Point<S, C>| point.stability.modes().iter().filter(|mode| **mode < 0.0).count();
-    negative(a).min(negative(b))
-}
 
 /// The point a `length` from `a` toward `b`.
 pub fn at<E: Equations>(
@@ -166,63 +149,82 @@ pub fn at_value<E: Equations>(
     None
 }
 
-/// The place of a change between two points, and the slope there of a function that vanishes: what is on its two sides decides, a smooth function of it where to look.
+/// The place of a change between two points.
+///
+/// Both sides are told apart by what changes, and a secant tells where to look: of the determinant at a branch point, to the power at
+/// which it grows in proportion. At the point itself the equations are singular, and near it another branch is as near: the last
+/// step, along the tangent, is not corrected.
 fn located<E: Equations>(
     equations: &mut E,
     a: &PointOf<E>,
     b: &PointOf<E>,
     kind: SpecialKind,
     turns: bool,
-) -> Option<(PointOf<E>, Option<f64>)> {
-    let first = a.stability.clone();
-    let mode = first_mode(a, b);
+    multiplicity: usize,
+) -> Option<PointOf<E>> {
+    let start = a.stability.clone();
+    let before = |point: &PointOf<E>| match kind {
+        SpecialKind::SectionInstability => point.stability.section_index == start.section_index,
+        _ if turns => point.along.t * a.along.t > 0.0,
+        _ => point.stability.index == start.index,
+    };
     let function = |point: &PointOf<E>| match kind {
         SpecialKind::SectionInstability => point.stability.section,
         _ if turns => point.along.t,
-        _ => point.stability.modes().get(mode).copied().unwrap_or(0.0),
-    };
-    let before = |point: &PointOf<E>| match kind {
-        SpecialKind::SectionInstability => point.stability.section_index == first.section_index,
-        _ if turns => point.along.t * a.along.t > 0.0,
-        _ => point.stability.index == first.index,
+        _ => {
+            let log = (point.stability.log_determinant - start.log_determinant) / multiplicity as f64;
+            // Where it is not known halves are left.
+            let size = if log.is_nan() { 1.0 } else { log.exp() };
+            if before(point) { size } else { -size }
+        }
     };
     let (mut low, mut high) = (a.clone(), b.clone());
     let (mut f_low, mut f_high) = (function(a), function(b));
-    let mut best: Option<PointOf<E>> = None;
-    let (mut last, mut slope) = (None, None);
+    // The last two points that were tried.
+    let mut tried: Vec<(PointOf<E>, f64)> = Vec::new();
     for tries in 0..MOST {
         let length = high.s - low.s;
+        let mut step = 0.5 * length;
         let smooth = f_low * f_high < 0.0;
-        let secant = length * f_low / (f_low - f_high);
-        // Now and then by halves, lest one end stays.
-        let step =
-            if smooth && tries % 4 != 3 { secant.clamp(1e-3 * length, 0.999 * length) } else { 0.5 * length };
-        let Some(mut point) = at(equations, &low, &high, step) else {
-            return best.map(|best| (best, slope));
-        };
-        point.s = low.s + step;
-        let value = function(&point);
-        let moved = best
-            .as_ref()
-            .map_or(f64::INFINITY, |best| (best.t - point.t).abs() + 1e-3 * (best.s - point.s).powi(2));
-        let far = best.as_ref().map_or(f64::INFINITY, |best| (best.s - point.s).abs());
-        let is_before = before(&point);
-        best = Some(point.clone());
-        if let Some((t, before)) = last.replace((point.t, value)) {
-            slope = Some((value - before) / (point.t - t))
-                .filter(|slope| slope.is_finite() && *slope != 0.0)
-                .or(slope);
+        if smooth && tries % 4 != 3 {
+            step = length * f_low / (f_low - f_high);
         }
-        if is_before {
-            // Illinois: the value of an end that stays is halved.
-            (low, f_low, f_high) = (point, value, 0.5 * f_high);
-        } else {
-            (high, f_high, f_low) = (point, value, 0.5 * f_low);
-        }
-        if value == 0.0 || far < 1e-9 && moved < TOLERANCE || (high.s - low.s) < 1e-11 || turns && far < 1e-6
+        if let [(before, f_before), (last, f_last)] =
+            tried.as_slice().last_chunk::<2>().map_or(&[][..], |last| last)
         {
-            break;
+            let gap = last.s - before.s;
+            let ahead = -f_last * gap / (f_last - f_before);
+            let place = last.s + ahead;
+            let inside = low.s < place && place < high.s;
+            // The error of a secant is of the order of the product.
+            if inside && (ahead * gap).abs() < EXACT || length < NEAREST {
+                let ahead = if inside { ahead } else { 0.0 };
+                let mut point = last.clone();
+                point.x = equations.moved(&last.x, &last.along.x, ahead);
+                point.t += ahead * last.along.t;
+                point.s += ahead;
+                return Some(point);
+            }
+            if inside && smooth && tries % 4 != 3 {
+                step = place - low.s;
+            }
         }
+        let step = step.clamp(1e-3 * length, 0.999 * length);
+        let found = at(equations, &low, &high, step).or_else(|| at(equations, &low, &high, 0.5 * length));
+        let Some(point) = found else { break };
+        let value = function(&point);
+        if before(&point) {
+            // Illinois: the value of an end that stays is halved.
+            (low, f_low, f_high) = (point.clone(), value, 0.5 * f_high);
+        } else {
+            (high, f_high, f_low) = (point.clone(), value, 0.5 * f_low);
+        }
+        tried.push((point, value));
     }
-    best.map(|best| (best, slope))
+    tried.pop().map(|(point, _)| point)
 }
+
+/// Product of the last two steps of a search that is small enough.
+const EXACT: f64 = 1e-12;
+/// An interval that is no longer divided.
+const NEAREST: f64 = 1e-7;

@@ -25,7 +25,7 @@ mod switch;
 pub use branch::{Branch, Ended, Limits, Special, SpecialKind, begin};
 pub use correct::Point;
 pub use diagram::{Diagram, diagram};
-pub use equations::{Direction, Equations, Failed, Pivot, Stability};
+pub use equations::{Direction, Equations, Failed, Stability};
 pub use held::{Held, HeldState, Spent, Work};
 pub use locate::at as between;
 pub use natural::{Natural, NaturalFamily};

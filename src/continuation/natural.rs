@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::equations::{Direction, Equations, Failed, Pivot, Stability};
+use super::equations::{Direction, Equations, Failed, Stability};
 use crate::InvalidInput;
 use crate::equilibrium::{Balance, balance};
 use crate::section::{RibbonLaw, RibbonSpec, Station};
@@ -93,6 +93,10 @@ impl Natural {
         }
     }
 
+    fn bordered(&self) -> Matrix3<f64> {
+        Matrix3::from_rows(&[self.rows[0], self.rows[1], self.across].map(|row| row.transpose()))
+    }
+
     fn balance(&mut self, x: &[f64; 2], t: f64) -> Result<Balance, Failed> {
         Ok(balance(self.station(t)?.section(), x[0], x[1]))
     }
@@ -146,13 +150,8 @@ impl Equations for Natural {
     }
 
     fn particular(&mut self) -> Direction<[f64; 2]> {
-        let matrix = Matrix3::from_rows(&[
-            self.rows[0].transpose(),
-            self.rows[1].transpose(),
-            self.across.transpose(),
-        ]);
         let rhs = Vector3::new(-self.residual[0], -self.residual[1], 0.0);
-        let solution = matrix.lu().solve(&rhs).unwrap_or(Vector3::repeat(f64::NAN));
+        let solution = self.bordered().lu().solve(&rhs).unwrap_or(Vector3::repeat(f64::NAN));
         Direction { x: [solution.x, solution.y], t: solution.z }
     }
 
@@ -179,8 +178,8 @@ impl Equations for Natural {
     fn stability(&mut self, _: &[f64; 2], _: f64) -> Stability {
         let Some(balance) = &self.balance else { return Stability::default() };
         // The ends are free: what the section does decides.
-        let pivot = Pivot::Modes(balance.eigenvalues());
-        Stability { section_index: 0, section: 1.0, index: Some(balance.index()), pivot }
+        let log_determinant = self.bordered().determinant().abs().ln();
+        Stability { section_index: 0, section: 1.0, index: Some(balance.index()), log_determinant }
     }
 
     fn invariants(&mut self, x: &[f64; 2], _: f64) -> Vec<f64> {
@@ -189,6 +188,10 @@ impl Equations for Natural {
 
     fn refined(&mut self, _: &[f64; 2], _: f64) -> Result<Option<[f64; 2]>, Failed> {
         Ok(None)
+    }
+
+    fn parameter_error(&mut self, _: &[f64; 2], _: f64, _: &Direction<[f64; 2]>) -> Result<f64, Failed> {
+        Ok(0.0)
     }
 
     fn doubled(&mut self, _: &[f64; 2], _: f64) -> Result<Option<[f64; 2]>, Failed> {

@@ -80,7 +80,7 @@ pub fn alike(a: &[f64], b: &[f64]) -> bool {
 }
 
 /// Unit directions at right angles to the branch in which the equations are singular.
-fn across<E: Equations>(equations: &mut E, at: &PointOf<E>, multiplicity: usize) -> Vec<DirectionOf<E>> {
+pub fn across<E: Equations>(equations: &mut E, at: &PointOf<E>, multiplicity: usize) -> Vec<DirectionOf<E>> {
     if equations.linearise(&at.x, at.t, Some(&at.along)).is_err() {
         return Vec::new();
     }
@@ -101,7 +101,7 @@ fn across<E: Equations>(equations: &mut E, at: &PointOf<E>, multiplicity: usize)
 }
 
 /// The first point in a direction.
-fn stepped<E: Equations>(
+pub fn stepped<E: Equations>(
     equations: &mut E,
     at: &PointOf<E>,
     direction: &DirectionOf<E>,

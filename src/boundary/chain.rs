@@ -20,7 +20,7 @@
 
 use nalgebra::DMatrix;
 
-use super::dense::{backward, eliminate, forward, least_of};
+use super::dense::{Determinant, backward, determinant, eliminate, forward, least_of};
 
 /// Singular values below this part of the next are those of gliding and rolling.
 const GLIDING: f64 = 1e-2;
@@ -223,12 +223,12 @@ impl Chain {
         self.pivot
     }
 
-    /// Logarithm of the absolute determinant of all but the last panel.
+    /// Determinant of all but the last panel.
     #[must_use]
-    pub fn log_determinant(&self) -> f64 {
-        let stride = self.stride();
-        let panels = self.panels.chunks_exact(self.panel_size());
-        panels.map(|panel| (0..self.n).map(|k| panel[k * stride + k].abs()).product::<f64>().ln()).sum()
+    pub fn determinant(&self) -> Determinant {
+        let panels = self.panels.chunks_exact(self.panel_size()).zip(self.swaps.chunks_exact(self.n));
+        let one = |(panel, swaps): (&[f64], &[usize])| determinant(panel, self.stride(), swaps);
+        panels.map(one).fold(Determinant { sign: 1.0, log: 0.0 }, Determinant::times)
     }
 
     /// The last panel before its elimination, by rows: of the last node, the constants, and the slack of a border.

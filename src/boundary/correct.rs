@@ -13,7 +13,8 @@
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 use super::chain::Reduced;
-use super::eliminated::Change;
+use super::dense::Determinant;
+use super::eliminated::{Change, Eliminated};
 use super::iterate::Correction;
 use super::system::{Residual, System};
 use super::transfer::joined;
@@ -224,13 +225,12 @@ impl System {
         order.iter().take(count).map(line).collect()
     }
 
-    /// Logarithm of the absolute determinant of the equations with a parameter, which vanishes at branch points alone; NaN if it is not
-    /// known.
+    /// Determinant of the equations with a parameter, which vanishes at branch points alone; `None` if it is not known.
     #[must_use]
-    pub fn log_determinant(&self, bordered: &Bordered) -> f64 {
-        let Kind::Chain { factors, .. } = &bordered.0 else { return f64::NAN };
-        let elements: f64 = self.elements.iter().map(|element| element.log_determinant()).sum();
-        elements + self.chain.log_determinant() + factors.determinant().abs().ln()
+    pub fn determinant(&self, bordered: &Bordered) -> Option<Determinant> {
+        let Kind::Chain { factors, .. } = &bordered.0 else { return None };
+        let last = self.chain.determinant().times(Determinant::of(factors.determinant()));
+        Some(self.elements.iter().map(Eliminated::determinant).fold(last, Determinant::times))
     }
 
     /// The error of the parameter that gaps between the elements stand for, on the line of solutions.

@@ -37,6 +37,38 @@ pub fn eliminate(block: &mut [f64], stride: usize, pivots: usize, swaps: &mut [u
     least
 }
 
+/// A determinant as a sign and a logarithm, for products of many factors neither overflow nor vanish in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Determinant {
+    /// 1 or -1, 0 if it vanishes.
+    pub sign: f64,
+    /// Of its absolute value.
+    pub log: f64,
+}
+
+impl Determinant {
+    /// Of a number.
+    #[must_use]
+    pub fn of(value: f64) -> Self {
+        let sign = if value == 0.0 { 0.0 } else { value.signum() };
+        Self { sign, log: value.abs().ln() }
+    }
+
+    /// The product.
+    #[must_use]
+    pub fn times(self, other: Self) -> Self {
+        Self { sign: self.sign * other.sign, log: self.log + other.log }
+    }
+}
+
+/// The determinant of what [`eliminate`] eliminated.
+#[must_use]
+pub fn determinant(block: &[f64], stride: usize, swaps: &[usize]) -> Determinant {
+    let pivots: f64 = (0..swaps.len()).map(|k| block[k * stride + k]).product();
+    let odd = swaps.iter().enumerate().filter(|(k, pivot)| k != *pivot).count() % 2 == 1;
+    Determinant::of(if odd { -pivots } else { pivots })
+}
+
 /// The lesser of two, or what is not a number, which callers refuse: `min` would drop it.
 #[must_use]
 pub fn least_of(a: f64, b: f64) -> f64 {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::dense::{backward, eliminate, forward};
+use super::dense::{Determinant, backward, determinant, eliminate, forward};
 use super::gauss::MAX_DEGREE;
 use crate::section::Strain;
 
@@ -70,11 +70,10 @@ impl Eliminated {
         }
     }
 
-    /// Logarithm of the absolute determinant of the Jacobian of the strains, once they are eliminated.
+    /// Determinant of the Jacobian of the strains, once they are eliminated.
     #[must_use]
-    pub fn log_determinant(&self) -> f64 {
-        let (size, stride) = (self.swaps.len(), self.width());
-        (0..size).map(|k| self.block[k * stride + k].abs()).product::<f64>().ln()
+    pub fn determinant(&self) -> Determinant {
+        determinant(&self.block, self.width(), &self.swaps)
     }
 
     /// The Jacobian of the stages and, beside it, its columns for the inputs: rows of [`Eliminated::width`] numbers,

@@ -52,6 +52,7 @@ mod transfer;
 
 pub use adapt::{defects, estimate, refined, transferred};
 pub use correct::{Bordered, Line};
+pub use dense::Determinant;
 pub use ends::{At, End, Hold};
 pub use family::Family;
 pub use gauss::MAX_DEGREE;

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::InvalidInput;
+use crate::boundary::Determinant;
 
 /// A change of the state and of the parameter.
 #[derive(Clone, Debug)]
@@ -22,9 +23,8 @@ pub struct Stability {
     pub section: f64,
     /// Number of independent ways to lower the energy, where every section is stable and the loads have a potential.
     pub index: Option<usize>,
-    /// Logarithm of the absolute determinant of the equations with the parameter: minus infinity at a branch point. NaN if it is not
-    /// known.
-    pub log_determinant: f64,
+    /// Determinant of the equations with the parameter, which vanishes at branch points; `None` if it is not known.
+    pub determinant: Option<Determinant>,
 }
 
 impl Stability {

@@ -243,10 +243,9 @@ impl Equations for Held {
         let sections = system.sections;
         let index =
             if sections.index > 0 { None } else { self.work.index.of(|| system.index_here(&x.x, 1.0)) };
-        let log_determinant =
-            self.bordered.as_ref().map_or(f64::NAN, |bordered| system.log_determinant(bordered));
+        let determinant = self.bordered.as_ref().and_then(|bordered| system.determinant(bordered));
         let section = sections.least.min(1e300);
-        Stability { section_index: sections.index, section, index, log_determinant }
+        Stability { section_index: sections.index, section, index, determinant }
     }
 
     fn invariants(&mut self, x: &HeldState, _: f64) -> Vec<f64> {

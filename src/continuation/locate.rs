@@ -2,7 +2,7 @@
 
 use super::branch::{Limits, SpecialKind};
 use super::correct::{Guess, PointOf, corrected};
-use super::equations::{Equations, Failed, Stability};
+use super::equations::{Direction, Equations, Failed, Stability, unit};
 
 /// A special point that was found.
 pub struct Found<E: Equations> {
@@ -72,7 +72,7 @@ fn between<E: Equations>(
         between(equations, &middle, b, depth + 1, found);
         return;
     }
-    let Some(point) = located(equations, a, b, kind, turns, multiplicity) else { return };
+    let Some(point) = located(equations, a, b, kind, turns) else { return };
     // Those that are not at the same place.
     let aside = ASIDE * (b.s - a.s);
     let right = (multiplicity > 1 && depth < DEEPEST && point.s + aside < b.s)
@@ -160,7 +160,6 @@ fn located<E: Equations>(
     b: &PointOf<E>,
     kind: SpecialKind,
     turns: bool,
-    multiplicity: usize,
 ) -> Option<PointOf<E>> {
     let start = a.stability.clone();
     let before = |point: &PointOf<E>| match kind {
@@ -168,63 +167,94 @@ fn located<E: Equations>(
         _ if turns => point.along.t * a.along.t > 0.0,
         _ => point.stability.index == start.index,
     };
-    let function = |point: &PointOf<E>| match kind {
+    let function = |point: &PointOf<E>, multiplicity: usize| match kind {
         SpecialKind::SectionInstability => point.stability.section,
         _ if turns => point.along.t,
         _ => {
-            let log = (point.stability.log_determinant - start.log_determinant) / multiplicity as f64;
-            // Where it is not known halves are left.
-            let size = if log.is_nan() { 1.0 } else { log.exp() };
-            if before(point) { size } else { -size }
+            let side = if before(point) { 1.0 } else { -1.0 };
+            // Where the determinant is not known halves are left.
+            let Some((here, first)) = point.stability.determinant.zip(start.determinant) else { return side };
+            let size = ((here.log - first.log) / multiplicity as f64).exp();
+            // Of an even multiplicity it has one sign.
+            size * if multiplicity.is_multiple_of(2) { side } else { here.sign * first.sign }
         }
     };
+    let index = |point: &PointOf<E>| point.stability.index.unwrap_or(0);
     let (mut low, mut high) = (a.clone(), b.clone());
-    let (mut f_low, mut f_high) = (function(a), function(b));
-    // The last two points that were tried.
-    let mut tried: Vec<(PointOf<E>, f64)> = Vec::new();
-    for tries in 0..MOST {
+    let mut tried: Vec<PointOf<E>> = Vec::new();
+    let mut lengths = [f64::INFINITY; 2];
+    for _ in 0..MOST {
         let length = high.s - low.s;
-        let mut step = 0.5 * length;
-        let smooth = f_low * f_high < 0.0;
-        if smooth && tries % 4 != 3 {
-            step = length * f_low / (f_low - f_high);
-        }
-        if let [(before, f_before), (last, f_last)] =
-            tried.as_slice().last_chunk::<2>().map_or(&[][..], |last| last)
-        {
-            let gap = last.s - before.s;
-            let ahead = -f_last * gap / (f_last - f_before);
-            let place = last.s + ahead;
-            let inside = low.s < place && place < high.s;
-            // The error of a secant is of the order of the product.
-            if inside && (ahead * gap).abs() < EXACT || length < NEAREST {
-                let ahead = if inside { ahead } else { 0.0 };
-                let mut point = last.clone();
-                point.x = equations.moved(&last.x, &last.along.x, ahead);
-                point.t += ahead * last.along.t;
-                point.s += ahead;
-                return Some(point);
+        let multiplicity = index(&low).abs_diff(index(&high)).max(1);
+        let value = |point: &PointOf<E>| (point.s, function(point, multiplicity));
+        let mut place = low.s + length * value(&low).1 / (value(&low).1 - value(&high).1);
+        if let Some([one, two, three]) = tried.last_chunk() {
+            let (there, error) = root(&[value(one), value(two), value(three)]);
+            // The index may be late by rounding.
+            let inside = low.s - NEAREST < there && there < high.s + NEAREST;
+            if inside && error < EXACT || length < NEAREST {
+                return Some(between_two(equations, two, three, if inside { there } else { three.s }));
             }
-            if inside && smooth && tries % 4 != 3 {
-                step = place - low.s;
-            }
+            place = there;
         }
-        let step = step.clamp(1e-3 * length, 0.999 * length);
-        let found = at(equations, &low, &high, step).or_else(|| at(equations, &low, &high, 0.5 * length));
+        // By halves where the interval does not shrink so fast.
+        let inside = low.s < place && place < high.s;
+        if !inside || length > 0.5 * lengths[0] {
+            place = low.s + 0.5 * length;
+        }
+        lengths = [lengths[1], length];
+        let found =
+            at(equations, &low, &high, place - low.s).or_else(|| at(equations, &low, &high, 0.5 * length));
         let Some(point) = found else { break };
-        let value = function(&point);
         if before(&point) {
-            // Illinois: the value of an end that stays is halved.
-            (low, f_low, f_high) = (point.clone(), value, 0.5 * f_high);
+            low = point.clone()
         } else {
-            (high, f_high, f_low) = (point.clone(), value, 0.5 * f_low);
+            high = point.clone()
         }
-        tried.push((point, value));
+        tried.push(point);
     }
-    tried.pop().map(|(point, _)| point)
+    tried.pop()
 }
 
-/// Product of the last two steps of a search that is small enough.
+/// The root of a function by inverse quadratic interpolation of three values, and an estimate of its error.
+fn root(values: &[(f64, f64); 3]) -> (f64, f64) {
+    let [(a, fa), (b, fb), (c, fc)] = *values;
+    let secant = c - fc * (c - b) / (fc - fb);
+    let quadratic = a * fb * fc / ((fa - fb) * (fa - fc))
+        + b * fa * fc / ((fb - fa) * (fb - fc))
+        + c * fa * fb / ((fc - fa) * (fc - fb));
+    let distances = [a, b, c].map(|place| (place - quadratic).abs());
+    // Of the order of the distances' product, and of what the last value changes times the last distance.
+    let error = distances.iter().product::<f64>().max((quadratic - secant).abs() * distances[2]);
+    (quadratic, error)
+}
+
+/// The point at `s` near two others, by their tangents; it is not corrected.
+fn between_two<E: Equations>(equations: &mut E, a: &PointOf<E>, b: &PointOf<E>, s: f64) -> PointOf<E> {
+    let whole = b.s - a.s;
+    let step = s - b.s;
+    // From b, along the tangent that turns to that at a.
+    let turning = -0.5 * step * step / whole;
+    let change = equations.sum(&[(step - turning, &b.along.x), (turning, &a.along.x)]);
+    let mut point = b.clone();
+    point.x = equations.moved(&b.x, &change, 1.0);
+    let y = step / whole;
+    point.along = unit(
+        equations,
+        &Direction {
+            x: equations.sum(&[(1.0 + y, &b.along.x), (-y, &a.along.x)]),
+            t: (1.0 + y) * b.along.t - y * a.along.t,
+        },
+    );
+    // Hermite's cubic.
+    let [from, to] = [b, a].map(|point| whole * point.along.t);
+    let (rise, bend) = (a.t - b.t + from, to - from);
+    point.t = b.t + y * (from + y * (3.0 * rise + bend + y * (2.0 * rise + bend)));
+    point.s = s;
+    point
+}
+
+/// Estimate of an error of a search that is small enough.
 const EXACT: f64 = 1e-12;
 /// An interval that is no longer divided.
 const NEAREST: f64 = 1e-7;

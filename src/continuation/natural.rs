@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::equations::{Direction, Equations, Failed, Stability};
 use crate::InvalidInput;
+use crate::boundary::Determinant;
 use crate::equilibrium::{Balance, balance};
 use crate::section::{RibbonLaw, RibbonSpec, Station};
 
@@ -178,8 +179,8 @@ impl Equations for Natural {
     fn stability(&mut self, _: &[f64; 2], _: f64) -> Stability {
         let Some(balance) = &self.balance else { return Stability::default() };
         // The ends are free: what the section does decides.
-        let log_determinant = self.bordered().determinant().abs().ln();
-        Stability { section_index: 0, section: 1.0, index: Some(balance.index()), log_determinant }
+        let determinant = Some(Determinant::of(self.bordered().determinant()));
+        Stability { section_index: 0, section: 1.0, index: Some(balance.index()), determinant }
     }
 
     fn invariants(&mut self, x: &[f64; 2], _: f64) -> Vec<f64> {

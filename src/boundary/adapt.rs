@@ -35,6 +35,18 @@ pub struct Defects {
     rates: Vec<f64>,
 }
 
+impl Defects {
+    /// The estimate, from what the equations make of the gaps.
+    #[must_use]
+    pub fn estimate(self, correction: &Correction, problem: &Problem) -> Estimate {
+        let mut error = largest(correction, problem);
+        if self.sizes.contains(&UNKNOWN) {
+            error = error.max(UNKNOWN);
+        }
+        Estimate { error, defects: self.sizes, rates: self.rates }
+    }
+}
+
 /// The defects of `x`, with the law violated by `offset` at the stages.
 ///
 /// # Errors
@@ -82,13 +94,9 @@ pub fn defects(system: &System, x: &Iterate, offset: &[Strain]) -> Result<Defect
 /// # Errors
 /// Where a section is refused.
 pub fn estimate(system: &mut System, x: &Iterate, offset: &[Strain]) -> Result<Estimate, InvalidInput> {
-    let Defects { gaps, sizes, rates } = defects(system, x, offset)?;
-    let correction = system.correction_for(gaps);
-    let mut error = largest(&correction, &system.mesh.problem);
-    if sizes.contains(&UNKNOWN) {
-        error = error.max(UNKNOWN);
-    }
-    Ok(Estimate { error, defects: sizes, rates })
+    let defects = defects(system, x, offset)?;
+    let correction = system.correction_for(defects.gaps.clone());
+    Ok(defects.estimate(&correction, &system.mesh.problem))
 }
 
 /// Strains at the stages of the half of an element that begins at `from`.

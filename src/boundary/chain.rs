@@ -39,6 +39,8 @@ pub struct Chain {
     last: Last,
     carried: Vec<f64>,
     pivot: f64,
+    /// The largest factor of each constant in an element.
+    sizes: Vec<f64>,
 }
 
 /// The conditions at the end: the last panel, factorised.
@@ -94,7 +96,17 @@ impl Chain {
     pub fn new(n: usize, m: usize) -> Self {
         let carried = Vec::new();
         let (panels, swaps, jumps) = (Vec::new(), Vec::new(), Vec::new());
-        Self { n, m, panels, swaps, jumps, last: Last::default(), carried, pivot: f64::INFINITY }
+        Self {
+            n,
+            m,
+            panels,
+            swaps,
+            jumps,
+            last: Last::default(),
+            carried,
+            pivot: f64::INFINITY,
+            sizes: vec![0.0; m],
+        }
     }
 
     fn stride(&self) -> usize {
@@ -117,6 +129,7 @@ impl Chain {
         self.swaps.clear();
         self.jumps.clear();
         self.pivot = f64::INFINITY;
+        self.sizes.fill(0.0);
         self.last = Last::default();
         self.carried.clear();
         self.carried.extend_from_slice(conditions);
@@ -125,6 +138,9 @@ impl Chain {
     /// Adds an element, `J x_{i+1} = A x_i + B p + ...`: `A` and `J` are `n x n`, `B` is `n x m`.
     pub fn push(&mut self, a: &[f64], j: &[f64], b: &[f64]) {
         let (n, m, stride) = (self.n, self.m, self.stride());
+        for row in b.chunks_exact(m.max(1)) {
+            self.sizes.iter_mut().zip(row).for_each(|(size, b)| *size = size.max(b.abs()));
+        }
         let first = self.panels.len();
         self.panels.resize(first + self.panel_size(), 0.0);
         let panel = &mut self.panels[first..];
@@ -229,6 +245,15 @@ impl Chain {
         let panels = self.panels.chunks_exact(self.panel_size()).zip(self.swaps.chunks_exact(self.n));
         let one = |(panel, swaps): (&[f64], &[usize])| determinant(panel, self.stride(), swaps);
         panels.map(one).fold(Determinant { sign: 1.0, log: 0.0 }, Determinant::times)
+    }
+
+    /// Sizes of the columns of the last panel if nothing cancels in it.
+    #[must_use]
+    pub fn sizes(&self) -> Vec<f64> {
+        let mut sizes = vec![1.0; self.n];
+        sizes.extend(&self.sizes);
+        sizes.resize(self.last.size, 1.0);
+        sizes
     }
 
     /// The last panel before its elimination, by rows: of the last node, the constants, and the slack of a border.

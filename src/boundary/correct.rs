@@ -10,12 +10,13 @@
 //!
 //! regular at a fold, where `B` alone is not, and singular at a branch point only.
 
-use nalgebra::{DMatrix, DVector, Dyn, LU};
+use nalgebra::DMatrix;
 
 use super::chain::Reduced;
 use super::dense::Determinant;
 use super::eliminated::{Change, Eliminated};
 use super::iterate::Correction;
+use super::panel::Panel;
 use super::system::{Residual, System};
 use super::transfer::joined;
 use crate::section::Strain;
@@ -42,7 +43,7 @@ pub struct Bordered(Kind);
 enum Kind {
     Chain {
         by_parameter: Rhs,
-        factors: LU<f64, Dyn, Dyn>,
+        panel: Panel,
     },
     /// The change of the state with the parameter.
     Sparse(Correction),
@@ -144,14 +145,21 @@ impl System {
     }
 
     /// Borders the factors with a parameter, what it does to the residual, and the last node's part of a line that the
-    /// solutions of the equations cross.
+    /// solutions of the equations cross; of so many free motions, if that is known.
     #[must_use]
-    pub fn bordered(&self, by_parameter: &Residual, across: Option<&Line>) -> Bordered {
+    pub fn bordered(
+        &self,
+        by_parameter: &Residual,
+        across: Option<&Line>,
+        nullity: Option<usize>,
+    ) -> Bordered {
         if self.sparse.is_some() {
             return Bordered(Kind::Sparse(self.correction_of(by_parameter)));
         }
         let rhs = self.reduced(by_parameter);
         let mut matrix = self.with_parameter(&rhs);
+        let mut sizes = self.chain.sizes();
+        sizes.push(matrix.column(matrix.ncols() - 1).amax());
         let size = matrix.nrows() - 1;
         match across {
             Some(line) => {
@@ -162,7 +170,7 @@ impl System {
             }
             None => matrix[(size, size)] = 1.0,
         }
-        Bordered(Kind::Chain { by_parameter: rhs, factors: matrix.lu() })
+        Bordered(Kind::Chain { by_parameter: rhs, panel: Panel::new(&matrix, sizes, nullity) })
     }
 
     /// The last panel with the column of the parameter, and a row of zeros.
@@ -179,13 +187,11 @@ impl System {
     pub fn particular(&self, bordered: &Bordered) -> Line {
         match &bordered.0 {
             Kind::Sparse(_) => Line { x: self.correction(), t: 0.0 },
-            Kind::Chain { by_parameter, factors } => {
+            Kind::Chain { by_parameter, panel } => {
                 let rhs = self.reduced(&self.residual);
-                let size = rhs.nodes.last.len();
-                let mut y = DVector::zeros(size + 1);
-                y.rows_mut(0, size).copy_from_slice(&rhs.nodes.last);
-                factors.solve_mut(&mut y);
-                self.line(rhs, by_parameter, y.as_slice())
+                let mut y = rhs.nodes.last.clone();
+                y.push(0.0);
+                self.line(rhs, by_parameter, &panel.solve(y))
             }
         }
     }
@@ -195,14 +201,20 @@ impl System {
     pub fn direction(&self, bordered: &Bordered) -> Line {
         match &bordered.0 {
             Kind::Sparse(x) => Line { x: x.clone(), t: 1.0 },
-            Kind::Chain { by_parameter, factors } => {
-                let size = by_parameter.nodes.last.len();
-                let mut y = DVector::zeros(size + 1);
-                y[size] = 1.0;
-                factors.solve_mut(&mut y);
-                self.line(self.nothing(by_parameter), by_parameter, y.as_slice())
+            Kind::Chain { by_parameter, panel } => {
+                let mut y = vec![0.0; by_parameter.nodes.last.len()];
+                y.push(1.0);
+                self.line(self.nothing(by_parameter), by_parameter, &panel.solve(y))
             }
         }
+    }
+
+    /// Motions that change nothing, all along a branch.
+    #[must_use]
+    pub fn motions(&self, bordered: &Bordered) -> Vec<Line> {
+        let Kind::Chain { by_parameter, panel } = &bordered.0 else { return Vec::new() };
+        let line = |y: &Vec<f64>| self.line(self.nothing(by_parameter), by_parameter, y);
+        panel.kernel().iter().map(line).collect()
     }
 
     /// Directions in which the equations with a parameter are nearly singular, the most singular first: at a branch point of
@@ -228,17 +240,17 @@ impl System {
     /// Determinant of the equations with a parameter, which vanishes at branch points alone; `None` if it is not known.
     #[must_use]
     pub fn determinant(&self, bordered: &Bordered) -> Option<Determinant> {
-        let Kind::Chain { factors, .. } = &bordered.0 else { return None };
-        let last = self.chain.determinant().times(Determinant::of(factors.determinant()));
+        let Kind::Chain { panel, .. } = &bordered.0 else { return None };
+        let last = self.chain.determinant().times(panel.determinant());
         Some(self.elements.iter().map(Eliminated::determinant).fold(last, Determinant::times))
     }
 
-    /// The error of the parameter that gaps between the elements stand for, on the line of solutions.
+    /// A solution of the equations with a parameter for gaps between the elements alone.
     #[must_use]
-    pub fn parameter_error(&mut self, bordered: &Bordered, gaps: Vec<[f64; 9]>) -> f64 {
+    pub fn particular_for(&mut self, bordered: &Bordered, gaps: Vec<[f64; 9]>) -> Line {
         let strains = vec![Strain::zeros(); self.mesh.stages()];
         self.residual = Residual { strains, gaps, ..Residual::default() };
-        self.particular(bordered).t
+        self.particular(bordered)
     }
 
     /// The line of solutions for a residual, from that of the last panel.

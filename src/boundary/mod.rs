@@ -11,10 +11,10 @@
 //! |---|---|
 //! | `problem`, `ends`, `law`, `family` | what is given, and how it depends on parameters |
 //! | `gauss`, `element`, `eliminated` | one element: stages, linearisation, elimination of its strains |
-//! | `transfer`, `chain`, `dense` | elimination of the nodes |
+//! | `transfer`, `chain`, `dense`, `symmetric` | elimination of the nodes |
 //! | `sparse` | the same without elimination, by faer |
 //! | `mesh`, `iterate`, `system` | all elements: unknowns, residual, Jacobian |
-//! | `correct` | corrections, also with a parameter unknown |
+//! | `correct`, `panel` | corrections, also with a parameter unknown |
 //! | `newton`, `known`, `path`, `arclength` | the nonlinear equations, from a known shape |
 //! | `step`, `adapt` | dense output, errors and meshes |
 //! | `check` | an independent residual |
@@ -38,6 +38,7 @@ mod known;
 mod law;
 mod mesh;
 mod newton;
+mod panel;
 mod path;
 mod problem;
 mod report;
@@ -50,7 +51,7 @@ mod symmetric;
 mod system;
 mod transfer;
 
-pub use adapt::{defects, estimate, refined, transferred};
+pub use adapt::{Defects, defects, refined, transferred};
 pub use correct::{Bordered, Line};
 pub use dense::Determinant;
 pub use ends::{At, End, Hold};

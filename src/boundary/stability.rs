@@ -143,9 +143,16 @@ fn symmetric(k: &Matrix6<f64>) -> Matrix6<f64> {
     0.5 * (k + k.transpose())
 }
 
-/// The index under the end conditions; `None` where it cannot be told.
+/// The index under the end conditions; `None` where it cannot be told. As many eigenvalues as there are free motions, which change
+/// nothing, do not count.
 #[must_use]
-pub fn index(problem: &Problem, rows: &[Rows], places: &[Place], units: &Units) -> Option<usize> {
+pub fn index(
+    problem: &Problem,
+    rows: &[Rows],
+    places: &[Place],
+    units: &Units,
+    free_motions: usize,
+) -> Option<usize> {
     let rigid = problem.law.at(0.0).ok()?.compliance.min() == 0.0;
     let free = freedom(problem.ends[0].hold);
     let springs = &free * free.transpose() / -SPRING;
@@ -185,6 +192,12 @@ pub fn index(problem: &Problem, rows: &[Rows], places: &[Place], units: &Units) 
         (false, false) => 0.0,
     };
     let last = last - SMatrix::identity() * (zero * behind.amax());
-    index += Symmetric::new(&last)?.negative(0.0) as isize - 6;
+    if free_motions == 0 {
+        index += Symmetric::new(&last)?.negative(0.0) as isize - 6;
+    } else {
+        let mut values: Vec<f64> = last.symmetric_eigenvalues().iter().copied().collect();
+        values.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+        index += values.iter().skip(free_motions).filter(|value| **value < 0.0).count() as isize - 6;
+    }
     usize::try_from(index).ok()
 }

@@ -51,6 +51,8 @@ pub struct System {
     /// The residual last evaluated.
     pub residual: Residual,
     load: Vec<(Vector, Vector)>,
+    /// Whether a closed ribbon that may glide along itself is kept from it by a border; else its equations are singular.
+    pub holds_gliding: bool,
     /// How often the Jacobian was factorised.
     pub factorisations: usize,
     /// Of the stages where the equations were linearised.
@@ -186,6 +188,7 @@ impl System {
             transfers: Vec::new(),
             residual: Residual::default(),
             load: Vec::new(),
+            holds_gliding: true,
             factorisations: 0,
             sections: Sections::default(),
         })
@@ -305,7 +308,8 @@ impl System {
             sparse.conditions(count, &end);
         } else {
             // On the way what the law is violated by tells the places along the ribbon apart.
-            if !(targets.offset.is_empty() && self.mesh.problem.glides()) {
+            let held = self.holds_gliding && targets.offset.is_empty();
+            if !(held && self.mesh.problem.glides()) {
                 self.border = None;
             } else if self.border.is_none() {
                 self.border = self.chain.border(&end);
@@ -476,12 +480,12 @@ impl System {
     /// potential; `None` where it cannot be told.
     pub fn index(&mut self, x: &Iterate, targets: &Targets) -> Option<usize> {
         self.linearise_open(x, targets).ok()?;
-        self.index_here(x, targets.load)
+        self.index_here(x, targets.load, 0)
     }
 
     /// The same, where the equations were just linearised.
     #[must_use]
-    pub fn index_here(&self, x: &Iterate, load: f64) -> Option<usize> {
+    pub fn index_here(&self, x: &Iterate, load: f64, free_motions: usize) -> Option<usize> {
         if self.sparse.is_some() || !self.mesh.problem.is_conservative() {
             return None;
         }
@@ -490,7 +494,7 @@ impl System {
             Place { position: at.position, force: [at.force + jump, at.force], moment: at.moment() }
         };
         let places: Vec<Place> = x.nodes.iter().enumerate().map(place).collect();
-        index(&self.mesh.problem, &self.transfers, &places, &self.units)
+        index(&self.mesh.problem, &self.transfers, &places, &self.units, free_motions)
     }
 
     /// Condition number of what is left when all nodes but the last are eliminated.

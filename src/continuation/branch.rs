@@ -131,6 +131,8 @@ const TURN: f64 = 0.7;
 const SHORTEST: f64 = 1e-7;
 /// Tangents that a prediction uses.
 const MEMORY: usize = 4;
+/// Meshes of a branch that are too many.
+const MOST_MESHES: usize = 20;
 /// Steps after which the mesh is looked at.
 const CHECKED: usize = 4;
 
@@ -149,18 +151,24 @@ pub fn follow<E: Equations>(
         mirrored: false,
     };
     let mut step = branch.points[0].s.max(FIRST_STEP);
+    let motions = branch.points[0].stability.free_motions;
     // How many of the last tangents predict the next point: those on this mesh, before any failure.
     let mut memory = 1;
     // The last point whose mesh is known to be fine enough, and how many steps ago that was.
     let (mut fine, mut since) = (0, CHECKED);
     let mut steps = 0;
     let mut at_end = false;
+    let mut meshes = 0;
     loop {
+        if meshes > MOST_MESHES {
+            branch.ended[1] = Ended::Failed(Failed::Unresolved(meshes));
+            break;
+        }
         if since >= CHECKED || at_end {
             since = 0;
             match verified(equations, &mut branch, fine, limits) {
                 Ok(true) => fine = branch.points.len() - 1,
-                Ok(false) => (memory, at_end) = (1, false),
+                Ok(false) => (memory, at_end, meshes) = (1, false, meshes + 1),
                 Err(failed) => {
                     branch.ended[1] = ended_by(branch.points.last(), failed);
                     break;
@@ -178,6 +186,7 @@ pub fn follow<E: Equations>(
             branch.ended[1] = Ended::Failed(Failed::Interrupted);
             break;
         }
+        equations.expect_motions(Some(motions));
         let next = match advanced(equations, &branch.points, memory, step, limits) {
             Ok(next) => next,
             Err(failed) => {
@@ -199,7 +208,7 @@ pub fn follow<E: Equations>(
                 branch.ended[1] = ended_by(branch.points.last(), failed);
                 break;
             }
-            (memory, since) = (1, CHECKED);
+            (memory, since, meshes) = (1, CHECKED, meshes + 1);
             continue;
         }
         for found in found {
@@ -318,7 +327,7 @@ fn verified<E: Equations>(
     limits: &Limits,
 ) -> Result<bool, Failed> {
     let last = &branch.points[branch.points.len() - 1];
-    let Some(finer) = equations.refined(&last.x, last.t)? else { return Ok(true) };
+    let Some(finer) = equations.refined(&last.x, last.t, &last.along)? else { return Ok(true) };
     restart(equations, branch, fine, &finer, limits)?;
     Ok(false)
 }
@@ -381,6 +390,7 @@ pub fn begin<E: Equations>(
     t: f64,
     limits: &Limits,
 ) -> Result<PointOf<E>, Failed> {
+    equations.expect_motions(None);
     let guess = Guess { x, t, across: None, sense: None };
     let Corrected { mut point, first } = corrected(equations, guess, limits.tolerance, true)?;
     if first > NEAR {

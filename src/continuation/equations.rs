@@ -23,6 +23,8 @@ pub struct Stability {
     pub section: f64,
     /// Number of independent ways to lower the energy, where every section is stable and the loads have a potential.
     pub index: Option<usize>,
+    /// Motions that change nothing, all along a branch.
+    pub free_motions: usize,
     /// Determinant of the equations with the parameter, which vanishes at branch points; `None` if it is not known.
     pub determinant: Option<Determinant>,
 }
@@ -44,6 +46,9 @@ pub enum Failed {
     /// Newton's method does not converge.
     #[error("Newton's method does not converge: the last correction is {0:.1e}")]
     Diverged(f64),
+    /// Meshes that do not meet the tolerance.
+    #[error("{0} meshes do not meet the tolerance")]
+    Unresolved(usize),
     /// It converges to what is not near.
     #[error("the next equilibrium is not near")]
     Jumped,
@@ -61,6 +66,9 @@ pub trait Equations {
     type State: Clone;
     /// A change of `x`: an element of a linear space.
     type Change: Clone;
+
+    /// Says how many free motions there are on the branch that is followed, or that it is not known.
+    fn expect_motions(&mut self, count: Option<usize>);
 
     /// `x` changed by `factor` times a change.
     fn moved(&mut self, x: &Self::State, change: &Self::Change, factor: f64) -> Self::State;
@@ -109,11 +117,16 @@ pub trait Equations {
     /// Numbers that are the same for mirror images, to tell equilibria apart.
     fn invariants(&mut self, x: &Self::State, t: f64) -> Vec<f64>;
 
-    /// The state on a finer mesh, if the one it has, on which it was linearised, is too coarse.
+    /// The state of a branch with this tangent on a finer mesh, if the one it has is too coarse.
     ///
     /// # Errors
     /// Where that cannot be.
-    fn refined(&mut self, x: &Self::State, t: f64) -> Result<Option<Self::State>, Failed>;
+    fn refined(
+        &mut self,
+        x: &Self::State,
+        t: f64,
+        along: &Direction<Self::Change>,
+    ) -> Result<Option<Self::State>, Failed>;
 
     /// The error of the parameter at a branch point on this mesh, from a direction in which a branch leaves it.
     ///
@@ -131,6 +144,9 @@ pub trait Equations {
     /// # Errors
     /// Where that cannot be.
     fn doubled(&mut self, x: &Self::State, t: f64) -> Result<Option<Self::State>, Failed>;
+
+    /// Whether two states are on one mesh.
+    fn on_one_mesh(&self, a: &Self::State, b: &Self::State) -> bool;
 
     /// The state, and a change of it, on the mesh of another.
     ///

@@ -5,11 +5,11 @@ use std::time::Instant;
 
 use nalgebra::Vector3;
 
-use super::equations::{Direction, Equations, Failed, Stability};
+use super::equations::{Direction, Equations, Failed, Stability, dot, plus, unit};
 use crate::InvalidInput;
 use crate::boundary::{
-    Bordered, Correction, Failure, Family, Iterate, Layout, Line, Mesh, Problem, Stepper, System, defects,
-    estimate, goal, refined, transferred,
+    Bordered, Correction, Defects, Failure, Family, Iterate, Layout, Line, Mesh, Problem, Stepper, System,
+    defects, goal, refined, transferred,
 };
 use crate::section::Strain;
 
@@ -69,6 +69,9 @@ pub struct Held {
     nodes: Arc<Vec<f64>>,
     system: Option<System>,
     bordered: Option<Bordered>,
+    motions: Option<usize>,
+    /// Motions that change nothing, orthonormal, where the equations were linearised.
+    free: Vec<Direction<Correction>>,
     /// What was done so far.
     pub work: Work,
 }
@@ -104,6 +107,8 @@ impl Held {
             nodes,
             system: None,
             bordered: None,
+            motions: None,
+            free: Vec::new(),
             work: Work::default(),
         }
     }
@@ -143,10 +148,13 @@ impl Held {
             (old, _) => {
                 let mesh = Mesh::new(&problem, Self::places(&x.nodes, problem.length), self.degree)?;
                 let mut system = System::with_layout(mesh, self.layout)?;
+                // Free motions are found, whatever they are.
+                system.holds_gliding = false;
                 // Changes are measured by the same units all along.
                 if let Some(old) = old {
                     system.units = old.units;
                 }
+                self.free.clear();
                 self.nodes = Arc::clone(&x.nodes);
                 Ok(self.system.insert(system))
             }
@@ -168,6 +176,10 @@ impl Held {
 impl Equations for Held {
     type State = HeldState;
     type Change = Correction;
+
+    fn expect_motions(&mut self, count: Option<usize>) {
+        self.motions = count;
+    }
 
     fn moved(&mut self, x: &HeldState, change: &Correction, factor: f64) -> HeldState {
         let t = self.at.as_ref().map_or(0.0, |(t, _)| *t);
@@ -211,12 +223,19 @@ impl Equations for Held {
         let before = self.at.take();
         self.evaluated(x, t + DIFFERENCE)?;
         self.at = before;
+        let nullity = self.motions;
         let system = self.system(x, t)?;
         let mut slope = std::mem::replace(&mut system.residual, here);
         slope.subtract(&system.residual, DIFFERENCE);
         let across = across.map(|across| Line { x: across.x.clone(), t: across.t });
-        let bordered = system.bordered(&slope, across.as_ref());
+        let bordered = system.bordered(&slope, across.as_ref(), nullity);
+        let motions = system.motions(&bordered);
         self.bordered = Some(bordered);
+        self.free.clear();
+        for Line { x, t } in motions {
+            let motion = self.without_motions(Direction { x, t });
+            self.free.push(unit(self, &motion));
+        }
         Ok(())
     }
 
@@ -241,11 +260,12 @@ impl Equations for Held {
     fn stability(&mut self, x: &HeldState, _: f64) -> Stability {
         let Some(system) = &self.system else { return Stability::default() };
         let sections = system.sections;
+        let free = self.free.len();
         let index =
-            if sections.index > 0 { None } else { self.work.index.of(|| system.index_here(&x.x, 1.0)) };
+            if sections.index > 0 { None } else { self.work.index.of(|| system.index_here(&x.x, 1.0, free)) };
         let determinant = self.bordered.as_ref().and_then(|bordered| system.determinant(bordered));
         let section = sections.least.min(1e300);
-        Stability { section_index: sections.index, section, index, determinant }
+        Stability { section_index: sections.index, section, index, free_motions: free, determinant }
     }
 
     fn invariants(&mut self, x: &HeldState, _: f64) -> Vec<f64> {
@@ -265,19 +285,25 @@ impl Equations for Held {
         sums
     }
 
-    fn refined(&mut self, x: &HeldState, t: f64) -> Result<Option<HeldState>, Failed> {
-        self.linearise(x, t, None)?;
+    fn refined(
+        &mut self,
+        x: &HeldState,
+        t: f64,
+        along: &Direction<Correction>,
+    ) -> Result<Option<HeldState>, Failed> {
+        self.linearise(x, t, Some(along))?;
+        let Some(defects) = self.defects(x)? else { return Ok(None) };
+        // At right angles to the branch: along it nothing is held.
+        let line = self.line();
+        let some = self.error_for(defects.gaps.clone());
+        let error = plus(self, &some, -dot(self, along, &some) / dot(self, along, &line), &line);
         let (tolerance, degree) = (self.tolerance, self.degree);
         let system = self.system(x, t)?;
-        let mut spent = Spent::default();
-        let estimated = spent.of(|| estimate(system, &x.x, &[]))?;
-        let fine = estimated.error <= tolerance || system.mesh.elements() >= MOST_ELEMENTS;
-        self.work.meshes.times += 1;
-        self.work.meshes.seconds += spent.seconds;
-        if fine {
+        let mut estimated = defects.estimate(&error.x, &system.mesh.problem);
+        estimated.error = estimated.error.max(error.t.abs());
+        if estimated.error <= tolerance || system.mesh.elements() >= MOST_ELEMENTS {
             return Ok(None);
         }
-        let system = self.system(x, t)?;
         let nodes = refined(&system.mesh, &estimated, MARGIN * tolerance);
         Ok(Some(transferred_to(&system.mesh, &x.x, nodes, degree)?))
     }
@@ -289,9 +315,8 @@ impl Equations for Held {
         across: &Direction<Correction>,
     ) -> Result<f64, Failed> {
         self.linearise(x, t, Some(across))?;
-        let (Some(system), Some(bordered)) = (&mut self.system, &self.bordered) else { return Ok(0.0) };
-        let gaps = self.work.meshes.of(|| defects(system, &x.x, &[]))?.gaps;
-        Ok(system.parameter_error(bordered, gaps))
+        let defects = self.defects(x)?;
+        Ok(defects.map_or(0.0, |defects| self.error_for(defects.gaps).t))
     }
 
     fn doubled(&mut self, x: &HeldState, t: f64) -> Result<Option<HeldState>, Failed> {
@@ -303,6 +328,10 @@ impl Equations for Held {
         let halves = mesh.nodes.windows(2).flat_map(|ends| [ends[0], 0.5 * (ends[0] + ends[1])]);
         let nodes = halves.chain([problem.length]).collect();
         Ok(Some(transferred_to(&mesh, &x.x, nodes, self.degree)?))
+    }
+
+    fn on_one_mesh(&self, a: &HeldState, b: &HeldState) -> bool {
+        Arc::ptr_eq(&a.nodes, &b.nodes)
     }
 
     fn remeshed(
@@ -379,16 +408,44 @@ fn turned(mesh: &Mesh, x: &HeldState, by: &Strain) -> Option<Vec<crate::boundary
 }
 
 impl Held {
+    /// What the elements of the mesh miss.
+    fn defects(&mut self, x: &HeldState) -> Result<Option<Defects>, Failed> {
+        let Some(system) = &self.system else { return Ok(None) };
+        Ok(Some(self.work.meshes.of(|| defects(system, &x.x, &[]))?))
+    }
+
+    /// The change of state and parameter that these gaps stand for.
+    fn error_for(&mut self, gaps: Vec<[f64; 9]>) -> Direction<Correction> {
+        match (&mut self.system, &self.bordered) {
+            (Some(system), Some(bordered)) => {
+                let Line { x, t } = system.particular_for(bordered, gaps);
+                Direction { x, t }
+            }
+            _ => no_direction(),
+        }
+    }
+
     fn solved(&mut self, solve: impl Fn(&System, &Bordered) -> Line) -> Direction<Correction> {
         match (&self.system, &self.bordered) {
             (Some(system), Some(bordered)) => {
                 let Line { x, t } = self.work.solved.of(|| solve(system, bordered));
-                Direction { x, t }
+                self.without_motions(Direction { x, t })
             }
-            _ => Direction {
-                x: Correction { nodes: vec![], strains: vec![], slack: [f64::NAN; 2] },
-                t: f64::NAN,
-            },
+            _ => no_direction(),
         }
     }
+
+    /// The part of a direction at right angles to the motions that change nothing.
+    fn without_motions(&self, mut direction: Direction<Correction>) -> Direction<Correction> {
+        for motion in &self.free {
+            direction = plus(self, &direction, -dot(self, motion, &direction), motion);
+        }
+        direction
+    }
+}
+
+/// None, which no norm mistakes for small.
+fn no_direction() -> Direction<Correction> {
+    let x = Correction { nodes: Vec::new(), strains: Vec::new(), slack: [f64::NAN; 2] };
+    Direction { x, t: f64::NAN }
 }

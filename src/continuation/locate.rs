@@ -112,10 +112,12 @@ fn tried<E: Equations>(
     let whole = b.s - a.s;
     // From the nearer end, along the tangent that turns from one to the other.
     let (from, to, step) = if length <= 0.5 * whole { (a, b, length) } else { (b, a, length - whole) };
-    let turning = 0.5 * step * step.abs() / whole;
-    let change = equations.sum(&[(step - turning, &from.along.x), (turning, &to.along.x)]);
+    let turning = if equations.on_one_mesh(&a.x, &b.x) { 0.5 * step * step.abs() / whole } else { 0.0 };
+    let parts = [(step - turning, &from.along.x), (turning, &to.along.x)];
+    let change = equations.sum(if turning == 0.0 { &parts[..1] } else { &parts });
     let x = equations.moved(&from.x, &change, 1.0);
     let t = from.t + (step - turning) * from.along.t + turning * to.along.t;
+    equations.expect_motions(Some(from.stability.free_motions));
     let guess = Guess { x, t, across: Some(&from.along), sense: Some(&a.along) };
     let mut point = corrected(equations, guess, 1e-11, true)?.point;
     point.s = a.s + length;
@@ -175,8 +177,9 @@ fn located<E: Equations>(
             // Where the determinant is not known halves are left.
             let Some((here, first)) = point.stability.determinant.zip(start.determinant) else { return side };
             let size = ((here.log - first.log) / multiplicity as f64).exp();
-            // Of an even multiplicity it has one sign.
-            size * if multiplicity.is_multiple_of(2) { side } else { here.sign * first.sign }
+            // Of an even multiplicity, or where its sign is not known, it has none.
+            let sign = if multiplicity.is_multiple_of(2) { 0.0 } else { here.sign * first.sign };
+            size * if sign == 0.0 { side } else { sign }
         }
     };
     let index = |point: &PointOf<E>| point.stability.index.unwrap_or(0);

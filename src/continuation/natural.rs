@@ -107,6 +107,8 @@ impl Equations for Natural {
     type State = [f64; 2];
     type Change = [f64; 2];
 
+    fn expect_motions(&mut self, _: Option<usize>) {}
+
     fn moved(&mut self, x: &[f64; 2], change: &[f64; 2], factor: f64) -> [f64; 2] {
         [x[0] + factor * change[0], x[1] + factor * change[1]]
     }
@@ -180,14 +182,20 @@ impl Equations for Natural {
         let Some(balance) = &self.balance else { return Stability::default() };
         // The ends are free: what the section does decides.
         let determinant = Some(Determinant::of(self.bordered().determinant()));
-        Stability { section_index: 0, section: 1.0, index: Some(balance.index()), determinant }
+        Stability {
+            section_index: 0,
+            section: 1.0,
+            index: Some(balance.index()),
+            free_motions: 0,
+            determinant,
+        }
     }
 
     fn invariants(&mut self, x: &[f64; 2], _: f64) -> Vec<f64> {
         vec![x[0] * x[0], x[1] * x[1]]
     }
 
-    fn refined(&mut self, _: &[f64; 2], _: f64) -> Result<Option<[f64; 2]>, Failed> {
+    fn refined(&mut self, _: &[f64; 2], _: f64, _: &Direction<[f64; 2]>) -> Result<Option<[f64; 2]>, Failed> {
         Ok(None)
     }
 
@@ -197,6 +205,10 @@ impl Equations for Natural {
 
     fn doubled(&mut self, _: &[f64; 2], _: f64) -> Result<Option<[f64; 2]>, Failed> {
         Ok(None)
+    }
+
+    fn on_one_mesh(&self, _: &[f64; 2], _: &[f64; 2]) -> bool {
+        true
     }
 
     fn remeshed(

@@ -79,25 +79,47 @@ pub fn alike(a: &[f64], b: &[f64]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= ALIKE * size)
 }
 
-/// Unit directions at right angles to the branch in which the equations are singular.
+/// Unit directions at right angles to the branch, and to its free motions, in which the equations are singular.
 pub fn across<E: Equations>(equations: &mut E, at: &PointOf<E>, multiplicity: usize) -> Vec<DirectionOf<E>> {
-    if equations.linearise(&at.x, at.t, Some(&at.along)).is_err() {
-        return Vec::new();
+    let motions = at.stability.free_motions;
+    let mut known = vec![at.along.clone()];
+    if motions > 0 {
+        // A little before, where the equations are singular for no other reason.
+        let x = equations.moved(&at.x, &at.along.x, -BEFORE);
+        let aside = at.t - BEFORE * at.along.t;
+        extend(equations, &x, aside, &at.along, (motions + 1, motions + 1), &mut known);
     }
-    let kernel = equations.kernel(multiplicity + 1);
-    let mut across: Vec<DirectionOf<E>> = Vec::new();
-    for direction in kernel {
+    let first = known.len();
+    extend(equations, &at.x, at.t, &at.along, (multiplicity + known.len(), first + multiplicity), &mut known);
+    known.split_off(first)
+}
+
+/// How far before a branch point.
+const BEFORE: f64 = 1e-3;
+
+/// Extends orthonormal directions, to at most so many, by those in which the equations are most nearly singular.
+fn extend<E: Equations>(
+    equations: &mut E,
+    x: &E::State,
+    t: f64,
+    along: &DirectionOf<E>,
+    (singular, most): (usize, usize),
+    known: &mut Vec<DirectionOf<E>>,
+) {
+    if equations.linearise(x, t, Some(along)).is_err() {
+        return;
+    }
+    for direction in equations.kernel(singular) {
         let mut direction = unit(equations, &direction);
-        for known in std::iter::once(&at.along).chain(&across.clone()) {
-            let part = dot(equations, &direction, known);
-            direction = plus(equations, &direction, -part, known);
+        for other in known.iter() {
+            let part = dot(equations, &direction, other);
+            direction = plus(equations, &direction, -part, other);
         }
-        // What is left of the tangent itself is nothing.
-        if dot(equations, &direction, &direction) > 1e-4 && across.len() < multiplicity {
-            across.push(unit(equations, &direction));
+        // What is left of what is known is nothing.
+        if dot(equations, &direction, &direction) > 1e-4 && known.len() < most {
+            known.push(unit(equations, &direction));
         }
     }
-    across
 }
 
 /// The first point in a direction.
@@ -112,6 +134,8 @@ pub fn stepped<E: Equations>(
         let x = equations.moved(&at.x, &direction.x, step);
         let guess =
             Guess { x, t: at.t + step * direction.t, across: Some(direction), sense: Some(direction) };
+        // A branch may have motions that the one it leaves has not.
+        equations.expect_motions(None);
         if let Ok(done) = corrected(equations, guess, limits.tolerance, true)
             && done.first < 0.5 * step
         {

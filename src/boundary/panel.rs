@@ -1,0 +1,142 @@
+//! The last panel with the column of a parameter, factorised; also where it is singular.
+//!
+//! A rod that is the same in all directions may turn about the line of its loads and ends, and a closed one along itself: then a singular
+//! value vanishes at every point of a branch, and of all solutions that with the least change is taken.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::dense::{Determinant, backward, determinant, eliminate, forward};
+
+/// The factors.
+pub enum Panel {
+    /// Of a regular matrix.
+    Regular {
+        /// By rows.
+        block: Vec<f64>,
+        /// Exchanged rows.
+        swaps: Vec<usize>,
+    },
+    /// Of one that is singular but for rounding.
+    Singular {
+        /// The inverse on what is regular.
+        inverse: DMatrix<f64>,
+        /// What it maps to nothing.
+        kernel: Vec<Vec<f64>>,
+        /// Logarithm of the product of the others, and of what the columns were divided by.
+        log: f64,
+    },
+}
+
+/// A solution so much larger than its right-hand side tells of a small singular value.
+const LARGE: f64 = 1e6;
+/// Singular values below this part of the next vanish.
+const VANISHING: f64 = 1e-7;
+/// The most singular values that may.
+const MOST: usize = 3;
+
+impl Panel {
+    /// Factorises a matrix whose columns are of these sizes if nothing cancels in them. So many of its singular values vanish, or, if
+    /// that is not known, as many as do.
+    #[must_use]
+    pub fn new(matrix: &DMatrix<f64>, sizes: Vec<f64>, nullity: Option<usize>) -> Self {
+        let size = matrix.nrows();
+        let mut block: Vec<f64> = matrix.transpose().as_slice().to_vec();
+        let mut swaps = vec![0; size];
+        eliminate(&mut block, size, size, &mut swaps);
+        let scale = DVector::from_vec(sizes).map(|size| size.max(f64::MIN_POSITIVE));
+        let regular = Self::Regular { block, swaps };
+        // Of no particular direction.
+        let trial = regular.solve((0..size).map(|i| 1.0 + 0.1 * i as f64).collect());
+        let largest = trial.iter().zip(scale.iter()).map(|(x, size)| (x * size).abs()).fold(0.0, f64::max);
+        if nullity == Some(0) || nullity.is_none() && largest < LARGE || !matrix.iter().all(|x| x.is_finite())
+        {
+            return regular;
+        }
+        Self::singular(matrix, &scale, nullity).unwrap_or(regular)
+    }
+
+    fn singular(matrix: &DMatrix<f64>, scale: &DVector<f64>, nullity: Option<usize>) -> Option<Self> {
+        let mut scaled = matrix.clone();
+        for (mut column, size) in scaled.column_iter_mut().zip(scale.iter()) {
+            column /= *size;
+        }
+        let svd = scaled.svd(true, true);
+        let (u, v) = (svd.u?, svd.v_t?);
+        let mut order: Vec<usize> = (0..scale.len()).collect();
+        order.sort_by(|&i, &k| svd.singular_values[i].total_cmp(&svd.singular_values[k]));
+        let value = |rank: usize| svd.singular_values[order[rank]];
+        let vanishing =
+            || (1..=MOST.min(scale.len() - 1)).rev().find(|&k| value(k - 1) < VANISHING * value(k));
+        let nullity = nullity.or_else(vanishing)?;
+        let mut inverse = DMatrix::zeros(scale.len(), scale.len());
+        let mut log = scale.iter().map(|size| size.ln()).sum::<f64>();
+        for &i in &order[nullity..] {
+            log += svd.singular_values[i].ln();
+            inverse += v.row(i).transpose() * u.column(i).transpose() / svd.singular_values[i];
+        }
+        for (mut row, size) in inverse.row_iter_mut().zip(scale.iter()) {
+            row /= *size;
+        }
+        let kernel = order[..nullity]
+            .iter()
+            .map(|&i| v.row(i).iter().zip(scale.iter()).map(|(y, size)| y / size).collect());
+        Some(Self::Singular { inverse, kernel: kernel.collect(), log })
+    }
+
+    /// Solves.
+    #[must_use]
+    pub fn solve(&self, mut rhs: Vec<f64>) -> Vec<f64> {
+        match self {
+            Self::Regular { block, swaps } => {
+                forward(block, rhs.len(), swaps, &mut rhs);
+                backward(block, rhs.len(), &mut rhs);
+                rhs
+            }
+            Self::Singular { inverse, .. } => (inverse * DVector::from_vec(rhs)).as_slice().to_vec(),
+        }
+    }
+
+    /// What it maps to nothing.
+    #[must_use]
+    pub fn kernel(&self) -> &[Vec<f64>] {
+        match self {
+            Self::Regular { .. } => &[],
+            Self::Singular { kernel, .. } => kernel,
+        }
+    }
+
+    /// The determinant, without those singular values; its sign is then not known, 0.
+    #[must_use]
+    pub fn determinant(&self) -> Determinant {
+        match self {
+            Self::Regular { block, swaps } => determinant(block, swaps.len(), swaps),
+            Self::Singular { log, .. } => Determinant { sign: 0.0, log: *log },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_a_singular_matrix_the_least_solution() {
+        let matrix = DMatrix::from_row_slice(3, 3, &[2.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1.0, 1.0 + 1e-15]);
+        let panel = Panel::new(&matrix, vec![1.0; matrix.ncols()], None);
+        assert_eq!(panel.kernel().len(), 1);
+        let x = panel.solve(vec![4.0, 3.0, 3.0]);
+        for (x, exact) in x.iter().zip([2.0, 1.5, 1.5]) {
+            assert!((x - exact).abs() < 1e-14);
+        }
+        // 2 and 2, without the singular value that vanishes.
+        assert!((panel.determinant().log - 4f64.ln()).abs() < 1e-14);
+    }
+
+    #[test]
+    fn of_a_regular_matrix_its_solution() {
+        let matrix = DMatrix::from_row_slice(2, 2, &[0.0, 2.0, 3.0, 1e-9]);
+        let panel = Panel::new(&matrix, vec![1.0; matrix.ncols()], None);
+        assert_eq!((panel.kernel().len(), panel.determinant().sign), (0, -1.0));
+        assert_eq!(panel.solve(vec![2.0, 3.0 + 1e-9]), vec![1.0, 1.0]);
+    }
+}

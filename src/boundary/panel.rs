@@ -28,9 +28,9 @@ pub enum Panel {
 }
 
 /// A solution so much larger than its right-hand side tells of a small singular value.
-const LARGE: f64 = 1e6;
+const LARGE: f64 = 1e4;
 /// Singular values below this part of the next vanish.
-const VANISHING: f64 = 1e-7;
+const VANISHING: f64 = 1e-5;
 /// The most singular values that may.
 const MOST: usize = 3;
 

@@ -23,7 +23,7 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { steps: 1000, tolerance: 1e-11, longest: 0.5, values: Vec::new(), interrupted: None }
+        Self { steps: 1000, tolerance: 1e-11, longest: 2.0, values: Vec::new(), interrupted: None }
     }
 }
 

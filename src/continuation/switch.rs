@@ -31,6 +31,8 @@ pub fn leaving<E: Equations>(
     let directions: Vec<DirectionOf<E>> = match across.as_slice() {
         [] => Vec::new(),
         [one] => vec![one.clone(), scaled(equations, one, -1.0)],
+        // A free motion turns one into all others.
+        [one, ..] if at.stability.free_motions > 0 => vec![one.clone()],
         [first, second, ..] => (0..SPOKES)
             .map(|i| {
                 let (sin, cos) = (2.0 * std::f64::consts::PI * i as f64 / SPOKES as f64).sin_cos();

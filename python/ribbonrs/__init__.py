@@ -10,8 +10,7 @@ Examples
 from __future__ import annotations
 
 from importlib import import_module
-from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from . import growth
 from .ends import Clamped, Closed, Free, Hinged, Pinned, Sliding
@@ -30,11 +29,15 @@ from .state import State
 
 if TYPE_CHECKING:
     from . import analytic
+    from .continuation import trace
+    from .diagram import Diagram, load_diagram
+    from .parameter import parameters
 
 __all__ = [
     "Clamped",
     "Closed",
     "ConvergenceError",
+    "Diagram",
     "Free",
     "Growth",
     "Helix",
@@ -57,14 +60,28 @@ __all__ = [
     "analytic",
     "growth",
     "integrate_frame",
+    "load_diagram",
     "natural_shapes",
+    "parameters",
     "solve",
+    "trace",
     "weight",
 ]
 
 
-def __getattr__(name: str) -> ModuleType:
-    """Load the closed forms when they are first used: a third of what this package costs to import."""
+LATER = {
+    "Diagram": ".diagram",
+    "load_diagram": ".diagram",
+    "parameters": ".parameter",
+    "trace": ".continuation",
+}
+"""Names that are loaded when they are first used, from these modules."""
+
+
+def __getattr__(name: str) -> Any:
+    """Load what not every program uses: half of what this package costs to import."""
     if name == "analytic":
         return import_module(".analytic", __name__)
+    if name in LATER:
+        return getattr(import_module(LATER[name], __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -12,12 +12,16 @@ __all__ = [
     "LinearLaw",
     "NaturalBranch",
     "SectionLaw",
+    "Trace",
+    "TracedBranch",
     "gauss_points",
     "helix",
     "integrate_gauss",
     "integrate_nodal",
     "integrate_segments",
     "natural_shapes_of",
+    "trace",
+    "trace_natural",
 ]
 
 _Array: TypeAlias = NDArray[np.float64]
@@ -158,6 +162,64 @@ class BoundarySolution:
     def reactions(self) -> list[_Array]: ...
     def parts(self) -> _Parts: ...
 
+@final
+class TracedBranch:
+    """Equilibria along a branch, k points; what `trace_natural` gives is of a ribbon of length 1."""
+
+    @property
+    def parameter(self) -> _Array: ...
+    @property
+    def energy(self) -> _Array: ...
+    @property
+    def load_potential(self) -> _Array: ...
+    @property
+    def section_index(self) -> NDArray[np.int64]: ...
+    @property
+    def index(self) -> _Array: ...
+    @property
+    def strains(self) -> _Array: ...
+    @property
+    def position(self) -> _Array: ...
+    @property
+    def reactions(self) -> _Array: ...
+    @property
+    def ended(self) -> tuple[str, str]: ...
+    @property
+    def reason(self) -> str: ...
+    @property
+    def origin(self) -> int | None: ...
+    @property
+    def mirrored(self) -> bool: ...
+    def solution(self, i: int) -> BoundarySolution | None: ...
+    def between(self, i: int, fraction: float) -> tuple[float, _Array, BoundarySolution | None]: ...
+
+@final
+class Trace:
+    """Branches of equilibria and their special points: kind, branch, point, parameter, multiplicity."""
+
+    @property
+    def branches(self) -> list[TracedBranch]: ...
+    @property
+    def special_points(self) -> list[tuple[str, int, int, float, int]]: ...
+
+def trace(
+    problems: tuple[BoundaryProblem, BoundaryProblem],
+    span: tuple[float, float],
+    start: BoundarySolution | _Array | None,
+    start_value: float,
+    values: Sequence[float],
+    depth: int,
+    max_steps: int,
+    tol: float,
+    degree: int | None,
+) -> Trace: ...
+def trace_natural(
+    laws: tuple[SectionLaw, SectionLaw],
+    span: tuple[float, float],
+    values: Sequence[float],
+    depth: int,
+    max_steps: int,
+) -> Trace: ...
 def natural_shapes_of(laws: Sequence[SectionLaw]) -> list[_Shapes]: ...
 def helix(
     S: _Array,

@@ -21,7 +21,7 @@ from .report import Event, Report
 from .scene import Scene
 from .state import State
 
-__all__ = ["degree_of", "equilibrium", "tolerance"]
+__all__ = ["degree_of", "equilibrium", "state_of", "tolerance"]
 
 METHOD = "Gauss collocation"
 
@@ -75,7 +75,7 @@ def equilibrium(
     if solution.status == "rounding_limited":
         message = f"tol = {tol:g} is below rounding: the error is about {solution.error:.1e}"
         warnings.warn(message, RibbonWarning, stacklevel=4)
-    state = _state(scene, solution, tol, n)
+    state = state_of(scene, solution, tol, n)
     if guess is None and state.stable is False:
         _warn_unstable(state)
     _warn_stretched(state)
@@ -149,7 +149,8 @@ def _unstretched(scene: Scene, strains: Array, S: Array) -> Array:
     return np.column_stack([strains[:, :2] - change, strains[:, 2:]])
 
 
-def _state(scene: Scene, solution: _core.BoundarySolution, tol: float, n: int) -> State:
+def state_of(scene: Scene, solution: _core.BoundarySolution, tol: float, n: int) -> State:
+    """Return the state of what the core solved."""
     length = scene.ribbon.length_ratio
     nodes = np.linspace(0.0, length, n)
     nodes.setflags(write=False)
@@ -203,7 +204,7 @@ def _events(scene: Scene, solution: _core.BoundarySolution) -> tuple[Event, ...]
 
 def _failure(scene: Scene, solution: _core.BoundarySolution, tol: float, n: int) -> ConvergenceError:
     """The error that says how far it went and what to try."""
-    state = _state(scene, solution, tol, n) if solution.fraction > 0.0 else None
+    state = state_of(scene, solution, tol, n) if solution.fraction > 0.0 else None
     iterate = solution.at(np.linspace(0.0, scene.ribbon.length_ratio, n))[0]
     advice = ADVICE.get(solution.status, ADVICE["diverged"])
     residuals = tuple(solution.residuals)

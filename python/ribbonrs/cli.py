@@ -1,4 +1,4 @@
-"""The command line: ``ribbonrs run SCENE.toml``.
+"""The command line: ``ribbonrs run SCENE.toml`` and ``ribbonrs trace SCENE.toml``.
 
 Exit status 0, or 2 for wrong input, 1 where no solution was found; the reason is one line on stderr.
 """
@@ -10,27 +10,28 @@ import io
 import os
 import sys
 import warnings
-from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
-from rich.console import Console
+from rich.console import Console, RenderableType
 
+from .diagram_file import write_table
 from .equilibrium import chosen, equilibria, solve
-from .errors import InputError, RibbonError, RibbonWarning
-from .scenefile import Output, read
-from .state import State
+from .errors import MISSING, InputError, RibbonError, RibbonWarning
+from .outputs import Output, write_all
+from .scenefile import read
 from .summary import summary
+from .trace_summary import trace_summary
 
 __all__ = ["main"]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit status."""
-    scene = _parser().parse_args(arguments).scene
+    given = _parser().parse_args(arguments)
     try:
-        _run(scene)
+        given.command(given.scene)
         print(end="", flush=True)
     except InputError as error:
         return _fail(str(error), 2)
@@ -50,62 +51,67 @@ def _parser() -> argparse.ArgumentParser:
         prog="ribbonrs", description="Equilibrium shapes of thin growing ribbons.", allow_abbrev=False
     )
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    run = commands.add_parser("run", help="find the shapes of a scene, show and save them")
-    run.add_argument("scene", type=Path, metavar="SCENE.toml", help="the scene file")
+    for name, command, told in (
+        ("run", _run, "find the shapes of a scene, show and save them"),
+        ("trace", _trace, "follow the shapes of a scene along a parameter, show and save the branches"),
+    ):
+        added = commands.add_parser(name, help=told)
+        added.add_argument("scene", type=Path, metavar="SCENE.toml", help="the scene file")
+        added.set_defaults(command=command)
     return parser
 
 
 def _run(path: Path) -> None:
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always", RibbonWarning)
+    with _told_warnings():
         job = read(path)
         states = [] if job.scene.loaded else equilibria(job.scene)
         state = chosen(states) if states else solve(job.scene, **job.options)
         others = [other for other in states if other is not state]
-        _write(state, job.outputs)
+        write_all(job.outputs, lambda kind, path: (state.plot if kind == "figure" else state.save)(path))
+    notes = ["`ribbonrs trace` draws the branches that [trace] asks for."] if job.trace else []
+    _print(summary(job.scene, state, others), notes, job.outputs)
+
+
+def _trace(path: Path) -> None:
+    with _told_warnings():
+        job = read(path)
+        if job.trace is None:
+            raise InputError("trace", MISSING, "a table with a parameter and its span")
+        diagram = job.trace.diagram(job.scene, **job.options)
+        told = trace_summary(diagram)
+        quantity = job.trace.quantity
+        writers: dict[str, Callable[[Path], object]] = {
+            "diagram": lambda path: diagram.plot(quantity, path),
+            "table": lambda path: write_table(diagram, path),
+            "branches": diagram.save,
+        }
+        write_all(job.traced, lambda kind, path: writers[kind](path))
+    _print(told, [], job.traced)
+
+
+@contextmanager
+def _told_warnings() -> Iterator[None]:
+    """Print what is warned of, each once, if all went well: an error says it otherwise."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", RibbonWarning)
+        yield
     for message in dict.fromkeys(str(warning.message) for warning in caught):
         print(f"ribbonrs: warning: {message}", file=sys.stderr)
+
+
+def _print(told: RenderableType, notes: Sequence[str], outputs: Sequence[Output]) -> None:
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")
     console = Console(markup=False, highlight=False, emoji=False)
-    told = summary(job.scene, state, others)
     # A narrow terminal wraps; cropped numbers would be read wrongly.
     console.width = max(
         console.width, console.measure(told, options=console.options.update(width=1000)).maximum
     )
     console.print(told)
-    if job.has_trace:
-        console.print("[trace] is for a later version and was left out.")
-    for output in job.outputs:
+    for note in notes:
+        console.print(note)
+    for output in outputs:
         console.print(f"wrote {output.path}", soft_wrap=True)
-
-
-def _write(state: State, outputs: Sequence[Output]) -> None:
-    """Write all files or none: each beside its place first, then all are moved there."""
-    with ExitStack() as stack:
-        moves = []
-        for output in outputs:
-            with _naming(output):
-                beside = TemporaryDirectory(prefix=".ribbonrs-", dir=output.path.parent)
-                written = Path(stack.enter_context(beside), output.path.name)
-                if output.field.startswith("output.figure"):
-                    state.plot(written)
-                else:
-                    state.save(written)
-            moves.append((output, written))
-        for output, written in moves:
-            with _naming(output):
-                written.replace(output.path)
-
-
-@contextmanager
-def _naming(output: Output) -> Iterator[None]:
-    """Turn a failure to write into an error that names the key of the scene file."""
-    try:
-        yield
-    except OSError as error:
-        expected = f"a file that can be written, not: {error.strerror}"
-        raise InputError(output.field, str(output.path), expected) from None
 
 
 def _fail(reason: str, status: int) -> int:

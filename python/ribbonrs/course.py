@@ -16,7 +16,7 @@ from .helix import Helix, helix_of
 from .problem import problem_of
 from .scene import Scene
 
-__all__ = ["Along", "Course", "Held", "Points", "Uniform"]
+__all__ = ["Along", "Course", "Held", "Points", "Uniform", "phase_of"]
 
 SMALL_CURVATURE, SMALL_STRAIN = 1e-6, 1e-9
 """Curvatures up to this times the thickness ratio, and axial strains up to this, do not differ."""
@@ -161,8 +161,7 @@ class Held(_Varying):
         """The name of the shape by K2 and K3, as of natural shapes; "curved" if it is not uniform."""
         if not self.uniform:
             return "curved"
-        bent, twisted = np.abs(self.strain[2:]) > SMALL_CURVATURE * self.scene.ribbon.thickness_ratio
-        return ("helical" if twisted else "bent") if bent else ("twisted" if twisted else "flat")
+        return phase_of(self.strain, self.scene.ribbon.thickness_ratio)
 
     @cached_property
     def strain(self) -> Array:
@@ -189,6 +188,12 @@ class Held(_Varying):
 
 Course: TypeAlias = Uniform | Along | Held
 """How the strains of a state run along the ribbon."""
+
+
+def phase_of(strain: Array, thickness_ratio: float) -> str:
+    """Return the name of a shape of the same strains (4,) everywhere, by K2 and K3."""
+    bent, twisted = np.abs(strain[2:]) > SMALL_CURVATURE * thickness_ratio
+    return ("helical" if twisted else "bent") if bent else ("twisted" if twisted else "flat")
 
 
 def _restored(scene: Scene, parts: _core._Parts) -> Held:

@@ -22,7 +22,7 @@ from .ribbon import Ribbon
 from .scene import Scene
 from .state import State
 
-__all__ = ["NODES", "chosen", "equilibria", "natural_shapes", "solve"]
+__all__ = ["NODES", "chosen", "equilibria", "natural_shapes", "solve", "uniform_states"]
 
 NODES = 101
 """Default number of nodes of a state."""
@@ -251,7 +251,7 @@ def _all_equilibria(scenes: list[Scene], n: int) -> list[list[State]]:
     nodes = np.linspace(0.0, scenes[0].ribbon.length_ratio if scenes else 0.0, size, dtype=np.float64)
     nodes.setflags(write=False)
     all_states = [
-        _branches(scene, law, nodes) if law.varies else _shapes(scene, law.core(), nodes, next(found))
+        _branches(scene, law, nodes) if law.varies else uniform_states(scene, law.core(), nodes, next(found))
         for scene, law in zip(scenes, laws, strict=True)
     ]
     _warn_unresolved([state for states in all_states for state in states])
@@ -285,8 +285,8 @@ def _warn_beyond_modes(found: Iterable[tuple[SectionLaw, list[State]]]) -> None:
                 return
 
 
-def _shapes(scene: Scene, core: _core.SectionLaw, nodes: Array, shapes: _Shapes) -> list[State]:
-    """The states of a uniform ribbon from what the core found."""
+def uniform_states(scene: Scene, core: _core.SectionLaw, nodes: Array, shapes: _Shapes) -> list[State]:
+    """Return the states of a uniform ribbon from what the core found."""
     strains, energies, indices, phases, resolved = shapes
     unresolved = len(phases) - int(np.count_nonzero(resolved))
     strains += 0.0  # no negative zeros

@@ -21,14 +21,9 @@ from numpy.typing import NDArray
 from .arrays import Array
 from .ends import Closed
 from .errors import InputError
-from .linear import LinearLaw
-from .loads import PointLoad
-from .pieces import Pieces
+from .record import record_of
 
 if TYPE_CHECKING:
-    from .loads import Load
-    from .ribbon import Ribbon
-    from .scene import Scene
     from .state import State
 
 __all__ = ["WRITERS", "replacing", "save"]
@@ -194,7 +189,7 @@ def _write_npz(state: State, path: Path) -> None:
         "force_unit": force_unit,
         "moment_unit": force_unit * ribbon.width,
         "units": UNITS,
-        "scene": json.dumps(_scene_record(state.scene)),
+        "scene": json.dumps(record_of(state.scene)),
         "report": json.dumps(_finite(asdict(state.report))),
         "ribbonrs_version": version("ribbonrs"),
     }
@@ -209,55 +204,6 @@ def _write_npz(state: State, path: Path) -> None:
         }
     with path.open("wb") as file:
         np.savez_compressed(file, **contents)
-
-
-def _scene_record(scene: Scene) -> dict[str, Any]:
-    length = scene.ribbon.length_ratio
-    terms = [
-        {"name": term.name, "amplitude": _plain(term.along(length)), "shape": _plain(term.shape)}
-        for term in scene.growth.terms
-    ]
-    return {
-        "ribbon": _ribbon_record(scene.ribbon),
-        "growth": {"terms": terms},
-        "start": {"kind": type(scene.start).__name__, **asdict(scene.start)},
-        "end": {"kind": type(scene.end).__name__, **asdict(scene.end)},
-        "gravity": scene.gravity,
-        "loads": [_load_record(load, length) for load in scene.loads],
-        "law": _law_record(scene.law),
-    }
-
-
-def _load_record(load: Load, length: float) -> dict[str, Any]:
-    if isinstance(load, PointLoad):
-        return {"kind": "PointLoad", **asdict(load)}
-    known = {name: [_plain(f) for f in components] for name, components in load.along(length).items()}
-    return {"kind": "LineLoad", **known}
-
-
-def _law_record(law: str | LinearLaw) -> Any:
-    """A linear law by its compliances, which are finite."""
-    if isinstance(law, str):
-        return law
-    return {"kind": "LinearLaw", "compliance": law.compliance, "intrinsic": law.intrinsic}
-
-
-def _ribbon_record(ribbon: Ribbon) -> dict[str, Any]:
-    record: dict[str, Any] = {name: getattr(ribbon, name) for name in ("length", "width", "thickness")}
-    for name, given, pieces in (
-        ("width_profile", ribbon.width_profile, ribbon.width_pieces),
-        ("thickness_profile", ribbon.thickness_profile, ribbon.thickness_pieces),
-    ):
-        record[name] = _plain(pieces) if callable(given) else given
-    record["material"] = {"kind": type(ribbon.material).__name__, **asdict(ribbon.material)}
-    return record
-
-
-def _plain(value: object) -> Any:
-    """Pieces, alone or within tuples, as dictionaries; all else as it is."""
-    if isinstance(value, Pieces):
-        return asdict(value)
-    return [_plain(entry) for entry in value] if isinstance(value, tuple) else value
 
 
 def _finite(value: Any) -> Any:

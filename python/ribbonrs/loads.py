@@ -76,6 +76,15 @@ class PointLoad:
         """Return what force acts: array (1, 3)."""
         return np.array([self.force])
 
+    def numbers(self, length: float) -> list[float]:
+        """Return numbers to which it is in proportion."""
+        return [*self.force, *self.moment]
+
+    def scaled(self, factor: float, length: float) -> PointLoad:
+        """Return `factor` times the load."""
+        force, moment = (tuple(factor * entry for entry in v) for v in (self.force, self.moment))
+        return PointLoad(self.S, force, moment)
+
 
 @dataclass(frozen=True, init=False)
 class LineLoad:
@@ -145,6 +154,40 @@ class LineLoad:
                 for name in ("force", "moment")
             }
         return self._known[length]
+
+    @property
+    def uniform(self) -> bool:
+        """Whether it is the same all along."""
+        return all(isinstance(component, float) for component in (*self.force, *self.moment))
+
+    def numbers(self, length: float) -> list[float]:
+        """Return numbers to which it is in proportion along a ribbon of this `length` over its width."""
+        known = [component for components in self.along(length).values() for component in components]
+        parts = [f.coefficients if isinstance(f, Pieces) else ((f,),) for f in known]
+        return [c for pieces in parts for piece in pieces for c in piece]
+
+    def scaled(self, factor: float, length: float) -> LineLoad:
+        """Return `factor` times the load on a ribbon of this `length` over its width."""
+        return LineLoad.of(
+            **{
+                name: tuple(f.scaled(factor) if isinstance(f, Pieces) else factor * f for f in components)
+                for name, components in self.along(length).items()
+            }
+        )
+
+    def with_(self, field: str, components: tuple[Amplitude, ...]) -> LineLoad:
+        """Return the same with other components of "force" or "moment"."""
+        return LineLoad.of(**{"force": self.force, "moment": self.moment, field: components})
+
+    @classmethod
+    def of(cls, force: tuple[Amplitude, ...], moment: tuple[Amplitude, ...]) -> LineLoad:
+        """Return a load of these three components each, as they are kept."""
+        made = cls()
+        for name, components in (("force", force), ("moment", moment)):
+            numbers = all(isinstance(component, float) for component in components)
+            kept = _components(f"line_load.{name}", components) if numbers else tuple(components)
+            object.__setattr__(made, name, kept)
+        return made
 
     @cached_property
     def _known(self) -> dict[float, dict[str, list[float | Pieces]]]:

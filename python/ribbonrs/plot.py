@@ -26,7 +26,7 @@ from .surface import section
 if TYPE_CHECKING:
     from .state import State
 
-__all__ = ["plot"]
+__all__ = ["plot", "write"]
 
 # Light grey in the middle, made for shaded surfaces and for colour-blind eyes (Moreland 2009).
 COLOURS = colormaps["coolwarm"]
@@ -93,7 +93,7 @@ def plot(state: State, path: str | PathLike[str] | None = None) -> Figure:
         _draw_curvatures(beside, state)
     figure.suptitle(_title(state), y=1.0 - 0.2 / figure.get_figheight(), color=INK, fontsize=12)
     if path is not None:
-        _write(figure, path)
+        write(figure, path)
     return figure
 
 
@@ -254,7 +254,8 @@ def _note(state: State, picture: Picture) -> str:
     return f"the first {drawn:.0f} of {turns:.0f} turns"
 
 
-def _write(figure: Figure, path: str | PathLike[str]) -> None:
+def write(figure: Figure, path: str | PathLike[str]) -> None:
+    """Write a figure in the format that the suffix names; an existing file is replaced as a whole."""
     known = figure.canvas.get_supported_filetypes()
     suffix = Path(path).suffix.lower().removeprefix(".")
     if suffix not in known:

@@ -19,33 +19,23 @@ from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationError
 from pydantic_core import ErrorDetails
 
 from .boundary import degree_of, tolerance
-from .check import numbers
 from .ends import Clamped, Closed, Free, Hinged, Pinned, Sliding
 from .errors import MISSING, InputError, shown
 from .growthtable import TABLE, VALUE, Along, GrowthTable, Table, as_list, table_or_value
 from .linear import LinearLaw
 from .loads import LineLoad, PointLoad, weight
 from .material import Isotropic, MooneyRivlin, Orthotropic
+from .outputs import TRACED, Output, OutputTable
 from .ribbon import Ribbon
 from .scene import Scene
+from .tracetable import TraceTable, Tracing
 
 if sys.version_info >= (3, 11):
     import tomllib
 else:
     import tomli as tomllib
 
-__all__ = ["SUFFIXES", "Job", "Output", "read"]
-
-SUFFIXES = {"figure": (".png", ".pdf", ".svg"), "surface": (".vtp", ".obj"), "data": (".npz",)}
-"""The kinds of output and what their files are called."""
-
-
-@dataclass(frozen=True)
-class Output:
-    """A file to write; `field` is the key of the scene file that asks for it."""
-
-    field: str
-    path: Path
+__all__ = ["Job", "read"]
 
 
 @dataclass(frozen=True)
@@ -56,7 +46,10 @@ class Job:
     options: dict[str, Any]
     """`tol` and `degree` for `solve`, if they are given."""
     outputs: tuple[Output, ...]
-    has_trace: bool
+    """What `ribbonrs run` writes."""
+    trace: Tracing | None
+    traced: tuple[Output, ...]
+    """What `ribbonrs trace` writes."""
 
 
 def read(path: str | os.PathLike[str]) -> Job:
@@ -231,48 +224,6 @@ _KINDS = {
 }
 
 
-class _TraceTable(Table):
-    parameter: Any
-    span: Any
-
-    def check(self) -> None:
-        if not isinstance(self.parameter, str):
-            raise InputError("trace.parameter", self.parameter, "a name, such as 'growth.edge.amplitude'")
-        span = numbers("trace.span", self.span, "two finite numbers")
-        if len(span) != 2:
-            raise InputError("trace.span", self.span, "two finite numbers")
-
-
-class _OutputTable(Table):
-    figure: Any = None
-    surface: Any = None
-    data: Any = None
-
-    def make(self) -> tuple[Output, ...]:
-        outputs: dict[str, Output] = {}
-        for key, value in self.given().items():
-            for i, name in enumerate(value) if isinstance(value, list) else ((None, value),):
-                field = f"output.{key}" if i is None else f"output.{key}[{i}]"
-                output = _output(field, name, SUFFIXES[key])
-                if outputs.setdefault(os.path.abspath(output.path), output) is not output:
-                    raise InputError(field, name, "a different file for each output")
-        return tuple(outputs.values())
-
-
-def _output(field: str, name: object, suffixes: tuple[str, ...]) -> Output:
-    if not isinstance(name, str) or not name.isprintable():
-        raise InputError(field, name, "a file name")
-    path = Path(name)
-    if path.suffix.lower() not in suffixes:
-        raise InputError(field, name, f"a file name ending in {' or '.join(suffixes)}")
-    # os.path, since Path.is_dir fails on a name that is too long.
-    if not os.path.isdir(path.parent):
-        raise InputError(field, name, "a file in a directory that exists")
-    if os.path.isdir(path):
-        raise InputError(field, name, "a file, not a directory")
-    return Output(field, path)
-
-
 class _SceneTable(Table):
     ribbon: _RibbonTable
     material: _MaterialTable | None = None
@@ -284,8 +235,8 @@ class _SceneTable(Table):
     loads: Annotated[list[_LoadTable], BeforeValidator(as_list)] = Field(default_factory=list)
     law: _Law = None
     solve: _SolveTable = _SolveTable()
-    trace: _TraceTable | None = None
-    output: _OutputTable = _OutputTable()
+    trace: TraceTable | None = None
+    output: OutputTable = OutputTable()
 
     def make(self, directory: Path) -> Job:
         given = self.given()
@@ -307,10 +258,17 @@ class _SceneTable(Table):
         arguments["loads"] = [_named(f"loads[{i}]", load) for i, load in enumerate(self.loads)]
         if "law" in given:
             arguments["law"] = LinearLaw(**self.law.given()) if isinstance(self.law, _LawTable) else self.law
-        if self.trace is not None:
-            self.trace.check()
+        tracing = None if self.trace is None else self.trace.make()
         options, outputs = self.solve.make(), self.output.make()
-        return Job(Scene(**arguments), options, outputs, has_trace=self.trace is not None)
+        scene = Scene(**arguments)
+        if tracing is not None:
+            tracing.check(scene)
+        solved, traced = (
+            tuple(output for output in outputs if (output.kind in TRACED) is kind) for kind in (False, True)
+        )
+        if traced and tracing is None:
+            raise InputError("trace", MISSING, f"a table, of which {traced[0].field} asks for a file")
+        return Job(scene, options, solved, tracing, traced)
 
 
 def _named(field: str, table: _Kind) -> Any:

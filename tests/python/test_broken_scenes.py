@@ -180,7 +180,9 @@ def mutated(draw, scenes=SCENES + VARYING):
     """A valid scene with one to three entries deleted, renamed, replaced, wrapped or moved."""
     scene = copy.deepcopy(draw(st.sampled_from(scenes)))
     for _ in range(draw(st.integers(1, 3))):
-        *path, key = draw(st.sampled_from(list(places(scene)) or [("growth",)]))
+        if not scene:
+            break
+        *path, key = draw(st.sampled_from(list(places(scene))))
         parent = scene
         for step in path:
             parent = parent[step]

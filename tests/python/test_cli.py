@@ -113,10 +113,10 @@ def test_outputs_replace_older_files(scene):
     assert Path("a.npz").read_bytes()[:2] == b"PK"
 
 
-def test_trace_is_left_to_a_later_version(scene, capsys):
+def test_run_says_which_command_traces(scene, capsys):
     trace = '[trace]\nparameter = "growth.edge.amplitude"\nspan = [0, 0.1]'
     assert main(["run", scene(SCENE + trace)]) == 0
-    assert "[trace] is for a later version" in capsys.readouterr().out
+    assert "`ribbonrs trace` draws the branches that [trace] asks for." in capsys.readouterr().out
 
 
 def test_large_growth_warns_in_one_line(scene, capsys):

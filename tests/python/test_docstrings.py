@@ -17,6 +17,7 @@ WITH_EXAMPLES = {
     "growth",
     "law",
     "measured",
+    "parameter",
     "pieces",
     "profile",
     "ribbon",

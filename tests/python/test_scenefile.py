@@ -53,7 +53,8 @@ def test_example_equals_its_python_objects(tmp_path, monkeypatch):
         ("output.surface", "helical_leaf.vtp"),
         ("output.data", "helical_leaf.npz"),
     ]
-    assert job.has_trace
+    assert (job.trace.parameter, job.trace.span) == ("growth.edge.amplitude", (0.0, 0.08))
+    assert (job.trace.options, job.trace.quantity, job.traced) == ({}, "K3", ())
 
 
 def test_documented_file_has_every_key_and_is_read(job):
@@ -65,6 +66,8 @@ def test_documented_file_has_every_key_and_is_read(job):
     names = ["edge", "thickness", "chiral", "vein", "station0_measured", "station1_measured"]
     assert [term.name for term in read.scene.growth.terms] == names
     assert len(read.outputs) == 4
+    assert [output.kind for output in read.traced] == ["diagram", "table", "branches"]
+    assert read.trace.options == {"values": (0.05,), "depth": 2, "max_steps": 1000}
     known = [*vars(scenefile).values(), *vars(growthtable).values()]
     tables = [name for name in known if isinstance(name, type) and hasattr(name, "model_fields")]
     for key in {key for table in tables for key in table.model_fields}:
@@ -87,7 +90,7 @@ def test_tables_left_out_have_the_defaults_of_python(job):
     assert read.scene == rb.Scene(rb.Ribbon(10.0, 1.0, 0.1), rb.growth.edge(0.06))
     assert read.outputs == ()
     assert read.options == {}
-    assert not read.has_trace
+    assert read.trace is None
 
 
 def test_every_growth(job):
@@ -290,7 +293,8 @@ def test_windows_text(job):
         ),
         (
             SCENE + '[output]\n"sur\\nface" = 1',
-            "output.'sur\\nface' = 1: expected one of figure, surface, data; the nearest is surface",
+            "output.'sur\\nface' = 1: expected one of figure, surface, data, diagram, table, branches; the "
+            "nearest is surface",
         ),
         (
             RIBBON + "[growth]\nedge = {S = [0, 1], value = [0, 1]}",
@@ -498,11 +502,32 @@ def test_windows_text(job):
         (SCENE + "[trace]\nparameter = 1\nspan = [0, 1]", "trace.parameter = 1: expected a name, such as"),
         (
             SCENE + '[trace]\nparameter = "a"\nspan = [0, 1, 2]',
-            "trace.span = [0, 1, 2]: expected two finite numbers",
+            "trace.span = [0, 1, 2]: expected two finite numbers, the lower one first",
         ),
         (
             SCENE + '[trace]\nparameter = "a"\nspan = [0, nan]',
             "trace.span[1] = nan: expected a finite number",
+        ),
+        (
+            SCENE + '[trace]\nparameter = "a"\nspan = [1, 0]',
+            "trace.span = [1, 0]: expected two finite numbers, the lower one first",
+        ),
+        (
+            SCENE + '[trace]\nparameter = "growth.edge.amplitud"\nspan = [0, 1]',
+            "trace.parameter = 'growth.edge.amplitud': expected a name that parameters(scene) lists; the "
+            "nearest is growth.edge.amplitude",
+        ),
+        (
+            SCENE + '[trace]\nparameter = "ribbon.length"\nspan = [5, 9]\nvalues = [6, 10]',
+            "trace.values[1] = 10.0: expected a number in the span, from 5 to 9",
+        ),
+        (
+            SCENE + '[trace]\nparameter = "ribbon.length"\nspan = [5, 9]\nquantity = "k2"',
+            "trace.quantity = 'k2': expected one of eps, K1, K2, K3, energy, load_potential, ",
+        ),
+        (
+            SCENE + '[output]\ntable = "a.csv"',
+            "trace is missing: expected a table, of which output.table asks for a file",
         ),
         # outputs
         (SCENE + "[output]\nfigure = 3", "output.figure = 3: expected a file name"),

@@ -18,5 +18,6 @@ mod second_order;
 
 pub use along::{TOLERANCE, natural_branches};
 pub use branch::{Event, EventKind, NaturalBranch};
+pub(crate) use natural::settle;
 pub use natural::{Equilibrium, natural_shapes};
 pub use phase::{PHASE_TOLERANCE, Phase};

@@ -49,11 +49,15 @@ LEGEND = {
     "change": "change of the state",
 }
 INK = "0.15"
+# Behind a name, which may be on a hatched region.
+BOX = {"boxstyle": "round,pad=0.2", "facecolor": "white", "edgecolor": "none", "alpha": 0.5}
 DPI = 200.0
 # Inches: the diagram, the margins to its left and below it, and a row of the legend.
 WIDE, HIGH, LEFT, LOW, ROW = 3.4, 2.8, 0.95, 0.66, 0.2
 # Inches that a name needs on each side of its middle to be written into its region.
 ROOM = 0.16
+# Rows and columns of points that are looked at for the places of names.
+POINTS = 200
 
 
 def plot(diagram: PhaseDiagram, path: str | PathLike[str] | None = None) -> Figure:
@@ -93,7 +97,7 @@ def plot(diagram: PhaseDiagram, path: str | PathLike[str] | None = None) -> Figu
         style, width, colour = STYLES[line.kind]
         axes.plot(*line.points.T, linestyle=style, linewidth=width, color=colour, solid_joinstyle="round")
     for x, y, name in _names(diagram):
-        axes.text(x, y, name, ha="center", va="center", fontsize=9, color=INK)
+        axes.text(x, y, name, ha="center", va="center", fontsize=9, color=INK, bbox=BOX)
     axes.set_xlim(*diagram.x.span)
     axes.set_ylim(*diagram.y.span)
     axes.set_xlabel(parameter_label(diagram.x.name), fontsize=9, color=INK)
@@ -179,23 +183,31 @@ def _key(point: Array) -> tuple[float, float]:
 
 def _names(diagram: PhaseDiagram) -> Iterator[tuple[float, float, str]]:
     """Where names go: to the middle of every region that is large enough."""
-    ny, nx = diagram.phase.shape
-    counts = diagram.stable.reshape(-1, len(PHASES)).tolist()
-    kinds = {(phase, *count) for phase, count in zip(diagram.phase.ravel().tolist(), counts, strict=True)}
-    for phase, *count in sorted(kinds):
-        if not phase:
-            continue
-        # Of mirror images there are two; how many is said where that differs.
-        several = sum(other[0] == phase for other in kinds) > 1
-        regions, number = label((diagram.phase == phase) & np.all(diagram.stable == count, axis=-1))
+    # Some points will do.
+    rows, columns = (slice(None, None, -(-n // POINTS)) for n in diagram.phase.shape)
+    phases, stable = diagram.phase[rows, columns], diagram.stable[rows, columns]
+    x, y = diagram.x.values[columns], diagram.y.values[rows]
+    size = HIGH / (y.size - 1), WIDE / (x.size - 1)
+    counts = map(tuple, stable.reshape(-1, len(PHASES)).tolist())
+    kinds = sorted(set(zip(phases.ravel().tolist(), counts, strict=True)) - {("", (0, 0, 0, 0))})
+    for phase, count in kinds:
+        nodes = (phases == phase) & np.all(stable == count, axis=-1)
+        # Whole cells: what is a line has none.
+        regions, number = label(nodes[:-1, :-1] & nodes[1:, :-1] & nodes[:-1, 1:] & nodes[1:, 1:])
         for k in range(1, number + 1):
             # The rim of the diagram is a border as well.
-            region = np.pad(regions == k, 1)
-            distance = distance_transform_edt(region, sampling=(HIGH / (ny - 1), WIDE / (nx - 1)))[1:-1, 1:-1]
+            distance = distance_transform_edt(np.pad(regions == k, 1), sampling=size)[1:-1, 1:-1]
             j, i = np.unravel_index(np.argmax(distance), distance.shape)
-            if distance[j, i] >= ROOM:
-                also = [p for p, states in zip(PHASES, count, strict=True) if states and p != phase]
-                name = phase.replace(", ", "\n") + "".join(f"\nor {p}" for p in also)
-                if several and not also:
-                    name += "\n1 shape" if sum(count) == 1 else f"\n{sum(count)} shapes"
-                yield float(diagram.x.values[i]), float(diagram.y.values[j]), name
+            if distance[j, i] - 0.5 * min(size) >= ROOM:
+                # Of mirror images there are two; how many is said where that differs.
+                differ = sum(other == phase for other, _ in kinds) > 1
+                yield 0.5 * float(x[i] + x[i + 1]), 0.5 * float(y[j] + y[j + 1]), _name(phase, count, differ)
+
+
+def _name(phase: str, count: tuple[int, ...], differ: bool) -> str:
+    """The phase, and what else is stable."""
+    also = [other for other, states in zip(PHASES, count, strict=True) if states and other != phase]
+    name = phase.replace(", ", "\n") + "".join(f"\nor {other}" for other in also)
+    if differ and not also:
+        name += "\n1 shape" if sum(count) == 1 else f"\n{sum(count)} shapes"
+    return name

@@ -31,7 +31,7 @@ def _areas(diagram: PhaseDiagram) -> Table:
     table.add_column("phase", no_wrap=True)
     table.add_column("part of the diagram", justify="right", no_wrap=True)
     for phase, area in diagram.areas.items():
-        table.add_row(phase, f"{100.0 * area:.3g} %" if area >= 1e-5 else "a line")
+        table.add_row(phase, f"{100.0 * area:.3g} %" if area >= 1e-5 else "< 0.001 %")
     return table
 
 

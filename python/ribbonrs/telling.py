@@ -44,7 +44,9 @@ class Telling:
         if self.progress is None:
             columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:.0f} %"))
             console = Console(stderr=True)
-            self.progress = Progress(*columns, TimeRemainingColumn(), console=console, transient=True)
+            self.progress = Progress(
+                *columns, TimeRemainingColumn(), console=console, transient=console.is_terminal
+            )
             self.progress.add_task(self.what, total=self.total)
             self.progress.start()
         self.progress.update(self.progress.task_ids[0], completed=done)

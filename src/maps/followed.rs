@@ -49,20 +49,19 @@ impl Stretch<'_> {
     /// Places, to `width`, where the class may change.
     pub fn proposals(&self, width: f64) -> impl Iterator<Item = f64> {
         let states: [Vec<Followed>; 2] = [0, 1].map(|end| self.stable(end));
-        let lost = move |end: usize, states: &[Followed]| -> Vec<f64> {
-            states.iter().filter_map(|state| self.loses_stability(end, state, width)).collect()
-        };
-        let ended = move |end: usize, states: &[Followed]| -> Vec<f64> {
-            states.iter().filter_map(|state| self.ends(end, state, width)).collect()
-        };
         // Each kind only if those before did not do; a state of the far end is followed back.
-        let kinds: [Box<dyn Fn(&Self, &[Vec<Followed>; 2]) -> Vec<f64>>; 4] = [
-            Box::new(move |_, states| [lost(0, &states[0]), lost(1, &states[1])].concat()),
-            Box::new(move |stretch, states| stretch.exchange(states, width).into_iter().collect()),
-            Box::new(move |stretch, states| stretch.renamed(states, width)),
-            Box::new(move |_, states| [ended(0, &states[0]), ended(1, &states[1])].concat()),
-        ];
-        kinds.into_iter().flat_map(move |kind| kind(self, &states))
+        (0..4).flat_map(move |kind| {
+            let each = |find: &dyn Fn(usize, &Followed) -> Option<f64>| -> Vec<f64> {
+                let ends = states.iter().enumerate();
+                ends.flat_map(|(end, states)| states.iter().filter_map(move |one| find(end, one))).collect()
+            };
+            match kind {
+                0 => each(&|end, state| self.loses_stability(end, state, width)),
+                1 => self.exchange(&states, width).into_iter().collect(),
+                2 => self.renamed(&states, width),
+                _ => each(&|end, state| self.ends(end, state, width)),
+            }
+        })
     }
 
     /// The stable states at an end, lowest energy first, one of mirror images.

@@ -82,6 +82,9 @@ pub fn phase_map(
     let mut along_x: Edges = vec![None; (nx - 1) * ny];
     let mut along_y: Edges = vec![None; nx * (ny - 1)];
     for first in (0..ny).step_by(BAND) {
+        if progress.is_stopped() {
+            break;
+        }
         let rows = first..(first + BAND).min(ny);
         let nodes = each(rows.len() * nx, |k| {
             if progress.is_stopped() {
@@ -119,6 +122,7 @@ pub fn phase_map(
             *slot(&mut along_x, &mut along_y, nx, edge) = found?;
         }
     }
+    samples.resize(nx * ny, None);
     let classes: Vec<Option<Class>> = samples.iter().map(|one| one.map(|sample| sample.class)).collect();
     let nodes = Nodes { xs, ys, classes: &classes, along_x: &along_x, along_y: &along_y };
     let field = (!progress.is_stopped()).then_some(&refined as &dyn Field<Class>);

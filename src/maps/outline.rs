@@ -66,15 +66,14 @@ pub fn outline<C: Copy + PartialEq + Send + Sync>(
     };
     let (first_x, first_y) = (number(nodes.along_x), number(nodes.along_y));
     let (nx, ny) = (nodes.xs.len(), nodes.ys.len());
-    let cells: Vec<Option<Cell<C>>> = (0..(nx - 1) * (ny - 1))
-        .map(|k| nodes.cell(k % (nx - 1), k / (nx - 1), &first_x, &first_y))
-        .collect();
-    let mut segments = border(nodes, &cells, &mut points);
-    let mixed: Vec<&Cell<C>> =
-        cells.iter().flatten().filter(|cell| cell.edges.iter().any(|edge| !edge.is_empty())).collect();
+    let cell = |i: usize, j: usize| nodes.cell(i, j, &first_x, &first_y);
+    let mut segments = border(nodes, cell, &mut points);
+    let places = (0..ny - 1).flat_map(|j| (0..nx - 1).map(move |i| (i, j)));
+    let mixed: Vec<Cell<C>> =
+        places.filter(|&(i, j)| !nodes.is_plain(i, j)).filter_map(|(i, j)| cell(i, j)).collect();
     let known = &points;
     let met = each(mixed.len(), |i| {
-        let meeting = Meeting::of(mixed[i], field, known)?;
+        let meeting = Meeting::of(&mixed[i], field, known)?;
         Ok::<_, InvalidInput>((meeting.points, meeting.segments))
     });
     let mut inside = Points::default();
@@ -101,6 +100,27 @@ pub fn outline<C: Copy + PartialEq + Send + Sync>(
 }
 
 impl<C: Copy + PartialEq> Nodes<'_, C> {
+    /// Numbers of the edges of a cell, those along `x` and those along `y`.
+    fn edges(&self, i: usize, j: usize) -> ([usize; 2], [usize; 2]) {
+        let nx = self.xs.len();
+        ([j * (nx - 1) + i, (j + 1) * (nx - 1) + i], [j * nx + i, j * nx + i + 1])
+    }
+
+    fn around(&self, i: usize, j: usize) -> impl Iterator<Item = &Option<Vec<Crossing<C>>>> {
+        let (x, y) = self.edges(i, j);
+        x.map(|k| &self.along_x[k]).into_iter().chain(y.map(|k| &self.along_y[k]))
+    }
+
+    /// Whether nothing changes along the edges of a cell, as far as it is known.
+    fn is_plain(&self, i: usize, j: usize) -> bool {
+        self.around(i, j).all(|edge| edge.as_ref().is_none_or(Vec::is_empty))
+    }
+
+    /// Whether all of a cell is known; an edge is known only if both its nodes are.
+    fn is_known(&self, i: usize, j: usize) -> bool {
+        self.around(i, j).all(Option::is_some)
+    }
+
     /// A cell, if all of it is known.
     fn cell(&self, i: usize, j: usize, first_x: &[usize], first_y: &[usize]) -> Option<Cell<C>> {
         let nx = self.xs.len();
@@ -113,16 +133,15 @@ impl<C: Copy + PartialEq> Nodes<'_, C> {
             let marks = edges[k].as_ref()?.iter().enumerate().rev();
             Some(marks.map(|(i, change)| Mark { point: first[k] + i, after: change.before }).collect())
         };
-        let x = |j: usize| j * (nx - 1) + i;
-        let y = |i: usize| j * nx + i;
+        let ([below, above], [left, right]) = self.edges(i, j);
         Some(Cell {
             corners: [[self.xs[i], self.ys[j]], [self.xs[i + 1], self.ys[j + 1]]],
             nodes: [node(i, j)?, node(i + 1, j)?, node(i + 1, j + 1)?, node(i, j + 1)?],
             edges: [
-                forward(self.along_x, first_x, x(j))?,
-                forward(self.along_y, first_y, y(i + 1))?,
-                backward(self.along_x, first_x, x(j + 1))?,
-                backward(self.along_y, first_y, y(i))?,
+                forward(self.along_x, first_x, below)?,
+                forward(self.along_y, first_y, right)?,
+                backward(self.along_x, first_x, above)?,
+                backward(self.along_y, first_y, left)?,
             ],
         })
     }
@@ -131,18 +150,20 @@ impl<C: Copy + PartialEq> Nodes<'_, C> {
 /// The edges between a cell that is known and none.
 fn border<C: Copy + PartialEq>(
     nodes: &Nodes<'_, C>,
-    cells: &[Option<Cell<C>>],
+    cell: impl Fn(usize, usize) -> Option<Cell<C>>,
     points: &mut Points,
 ) -> Vec<Segment<C>> {
     let (mx, my) = (nodes.xs.len() - 1, nodes.ys.len() - 1);
     let mut corners: HashMap<(usize, usize), usize> = HashMap::new();
     let mut segments = Vec::new();
-    for (k, cell) in cells.iter().enumerate() {
-        let (i, j) = (k % mx, k / mx);
-        let Some(cell) = cell else { continue };
-        let known = |i: usize, j: usize| i < mx && j < my && cells[j * mx + i].is_some();
-        // Below the first row and left of the first column the numbers wrap, and are not known.
+    // Below the first row and left of the first column the numbers wrap, and are not known.
+    let known = |i: usize, j: usize| i < mx && j < my && nodes.is_known(i, j);
+    for (i, j) in (0..my).flat_map(|j| (0..mx).map(move |i| (i, j))) {
         let neighbours = [(i, j.wrapping_sub(1)), (i + 1, j), (i, j + 1), (i.wrapping_sub(1), j)];
+        if !known(i, j) || neighbours.iter().all(|&(i, j)| known(i, j)) {
+            continue;
+        }
+        let Some(cell) = cell(i, j) else { continue };
         let grid = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
         for (side, (ni, nj)) in neighbours.into_iter().enumerate() {
             if known(ni, nj) {

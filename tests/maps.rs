@@ -112,6 +112,19 @@ fn growth_through_the_thickness_bends_everywhere_and_ends_the_second_state() {
 }
 
 #[test]
+fn tips_between_the_nodes_are_found() {
+    // The helical region ends in a tip on the axis of symmetry, where an even number of nodes has none.
+    let tip = |n: usize| {
+        let map = map(|x, y| spec(ETA, 10.0 * x, 2.0 * (y - 0.5), 0.0), n);
+        let lines = between(&map, [Phase::Twisted, Phase::Helical]);
+        lines.iter().flat_map(|line| &line.points).map(|at| 10.0 * at[0]).fold(f64::INFINITY, f64::min)
+    };
+    for n in [8, 20, 38] {
+        assert!((tip(n) - onset()).abs() < 0.1 / n as f64, "{n} {}", tip(n));
+    }
+}
+
+#[test]
 fn a_stopped_map_is_empty_and_a_whole_one_has_a_border() {
     let corner = |x: f64, y: f64| spec(ETA, 10.0 * y, 0.5 * x, 0.0);
     let plane = Plane::new([corner(0.0, 0.0), corner(1.0, 0.0), corner(0.0, 1.0), corner(1.0, 1.0)]).unwrap();

@@ -1,7 +1,10 @@
 //! A map: all nodes, then the changes along the edges between those that differ, some rows at a time.
 
+use std::collections::HashSet;
+
 use super::class::{Class, Sample};
 use super::crossing::{Crossing, crossings};
+use super::followed::place;
 use super::meeting::Field;
 use super::outline::{Nodes, Outline, outline};
 use super::plane::Plane;
@@ -10,6 +13,9 @@ use crate::InvalidInput;
 
 /// Rows of nodes that are done, with their edges, before the next ones are begun.
 const BAND: usize = 8;
+
+/// Where an edge is sampled for hidden changes: not in its middle, where lines of symmetry may run.
+const LOOKS: [f64; 5] = [0.0, 0.23, 0.47, 0.74, 1.0];
 
 /// Changes along edges, as [`Nodes`] has them.
 pub type Edges = Vec<Option<Vec<Crossing<Class>>>>;
@@ -123,11 +129,57 @@ pub fn phase_map(
         }
     }
     samples.resize(nx * ny, None);
+    if !progress.is_stopped() {
+        find_hidden(&refined, xs, ys, &mut along_x, &mut along_y)?;
+    }
     let classes: Vec<Option<Class>> = samples.iter().map(|one| one.map(|sample| sample.class)).collect();
     let nodes = Nodes { xs, ys, classes: &classes, along_x: &along_x, along_y: &along_y };
     let field = (!progress.is_stopped()).then_some(&refined as &dyn Field<Class>);
     let outline = outline(&nodes, field)?;
     Ok(PhaseMap { samples, along_x, along_y, outline })
+}
+
+/// Looks beside the lines found for places where they cross an edge twice between its nodes.
+///
+/// Edges without a change that are on cells with one are sampled between their nodes, as long as that finds more.
+fn find_hidden(
+    refined: &Refined<'_>,
+    xs: &[f64],
+    ys: &[f64],
+    along_x: &mut Edges,
+    along_y: &mut Edges,
+) -> Result<(), InvalidInput> {
+    let (nx, ny) = (xs.len(), ys.len());
+    let mut looked = HashSet::new();
+    loop {
+        let mut beside = Vec::new();
+        for (i, j) in (0..ny - 1).flat_map(|j| (0..nx - 1).map(move |i| (i, j))) {
+            let nodes = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)];
+            let edges = [[0, 1], [2, 3], [0, 2], [1, 3]].map(|edge| edge.map(|node| nodes[node]));
+            let plain = edges.map(|edge| slot(along_x, along_y, nx, edge).as_ref().is_none_or(Vec::is_empty));
+            if plain.contains(&false) {
+                let new = edges.into_iter().zip(plain).filter(|&(edge, plain)| plain && looked.insert(edge));
+                beside.extend(new.map(|(edge, _)| edge));
+            }
+        }
+        let found = each(beside.len(), |k| {
+            let edge = beside[k].map(|(i, j)| [xs[i], ys[j]]);
+            let mut changes = Vec::new();
+            for part in LOOKS.windows(2) {
+                changes.extend(refined.crossings([part[0], part[1]].map(|t| place(edge, t)))?);
+            }
+            Ok::<_, InvalidInput>(changes)
+        });
+        let mut any = false;
+        for (edge, changes) in beside.into_iter().zip(found) {
+            let changes = changes?;
+            any |= !changes.is_empty();
+            *slot(along_x, along_y, nx, edge) = Some(changes);
+        }
+        if !any {
+            return Ok(());
+        }
+    }
 }
 
 /// Where the changes along an edge from one node to the next are kept.

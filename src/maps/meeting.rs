@@ -1,4 +1,7 @@
-//! Where lines meet inside a cell: it is quartered until the meeting is known to a small part of it.
+//! Lines inside a cell: it is quartered where they are not straight, and where they meet until that is known to a small
+//! part of it.
+
+use std::ops::Range;
 
 use super::cell::{Cell, Mark, Segment, certain, joined};
 use super::crossing::Crossing;
@@ -6,6 +9,12 @@ use crate::InvalidInput;
 
 /// How often a cell is halved each way.
 const DEEPEST: usize = 7;
+
+/// Where a cell is cut: off its middle, where lines of symmetry may run.
+const MIDDLE: f64 = 0.47;
+
+/// How far a line may be from a straight one, in parts of a cell of the grid.
+const STRAIGHT: f64 = 0.01;
 
 /// Most quarterings within one cell of the grid.
 const MOST: usize = 48;
@@ -69,23 +78,57 @@ impl<'a, C: Copy + PartialEq> Meeting<'a, C> {
 
     fn resolve(&mut self, cell: &Cell<C>, depth: usize) -> Result<(), InvalidInput> {
         let ring = cell.ring();
-        if let Some(lines) = certain(&ring) {
-            self.segments.extend(lines);
+        if ring.is_empty() {
             return Ok(());
         }
+        let lines = certain(&ring);
         if let Some(field) = self.field
             && depth < DEEPEST
             && self.quarterings < MOST
-            && let Some(quarters) = self.quarters(cell, field)?
         {
-            self.quarterings += 1;
-            return quarters.iter().try_for_each(|quarter| self.resolve(quarter, depth + 1));
+            let first = self.known.at.len() + self.points.at.len();
+            if let Some(quarters) = self.quarters(cell, field)? {
+                self.quarterings += 1;
+                let inside = first..self.known.at.len() + self.points.at.len();
+                let scale = f64::from(1u32 << depth);
+                if !lines.as_ref().is_some_and(|lines| self.are_straight(lines, cell, inside, scale)) {
+                    return quarters.iter().try_for_each(|quarter| self.resolve(quarter, depth + 1));
+                }
+            }
+        }
+        if let Some(lines) = lines {
+            self.segments.extend(lines);
+            return Ok(());
         }
         let places: Vec<[f64; 2]> = ring.iter().map(|mark| self.place(mark.point)).collect();
         let mean = |i: usize| places.iter().map(|at| at[i]).sum::<f64>() / places.len() as f64;
         let meeting = self.add([mean(0), mean(1)], f64::NAN);
         self.segments.extend(joined(ring, Some(meeting)));
         Ok(())
+    }
+
+    /// Whether points inside a cell, of which `scale` make the width of one of the grid, are near its lines.
+    fn are_straight(&self, lines: &[Segment<C>], cell: &Cell<C>, inside: Range<usize>, scale: f64) -> bool {
+        let [low, high] = cell.corners;
+        let size = [scale * (high[0] - low[0]), scale * (high[1] - low[1])];
+        let scaled = |point: usize| -> [f64; 2] {
+            let at = self.place(point);
+            std::array::from_fn(|i| (at[i] - low[i]) / size[i])
+        };
+        // Both ends on one edge: what the line goes around is inside.
+        let folded = |line: &Segment<C>| {
+            let on = |edge: &Vec<Mark<C>>| edge.iter().filter(|mark| line.ends.contains(&mark.point)).count();
+            cell.edges.iter().any(|edge| on(edge) == 2)
+        };
+        let near = |point: usize| {
+            let distance = |line: &Segment<C>| {
+                let ([a, b], p) = (line.ends.map(scaled), scaled(point));
+                let (along, to) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
+                (along[0] * to[1] - along[1] * to[0]).abs() / along[0].hypot(along[1]).max(f64::MIN_POSITIVE)
+            };
+            lines.iter().any(|line| distance(line) <= STRAIGHT)
+        };
+        !lines.iter().any(folded) && inside.into_iter().all(near)
     }
 
     /// The quarters of a cell; `None` if the field does not agree with the changes on its border.
@@ -95,7 +138,7 @@ impl<'a, C: Copy + PartialEq> Meeting<'a, C> {
         field: &dyn Field<C>,
     ) -> Result<Option<[Cell<C>; 4]>, InvalidInput> {
         let [low, high] = cell.corners;
-        let centre = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
+        let centre = [low[0] + MIDDLE * (high[0] - low[0]), low[1] + MIDDLE * (high[1] - low[1])];
         let middles = [[centre[0], low[1]], [high[0], centre[1]], [centre[0], high[1]], [low[0], centre[1]]];
         let mut halves: Vec<[Vec<Mark<C>>; 2]> = Vec::new();
         let mut at_middles = Vec::new();

@@ -3,9 +3,10 @@
 //! At every node of a grid [`crate::equilibrium::natural_shapes`] finds all equilibria anew, so no node owes anything to its
 //! neighbours. Where the nodes at the ends of an edge of the grid differ in their [`Class`], the places of change between
 //! them are found to a tolerance, each enclosed by two complete searches that are no farther apart. The
-//! places are joined to lines cell by cell; where several lines meet in a cell it is quartered until it is small.
+//! places are joined to lines cell by cell; a cell is quartered where they are not straight or meet.
 //!
-//! What has no node inside, a region smaller than a cell or a line that crosses an edge twice, is not seen.
+//! A line that crosses an edge twice between its nodes is looked for beside the lines that are found. A region that holds
+//! no node at all is not seen.
 
 mod cell;
 mod chain;

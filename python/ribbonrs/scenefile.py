@@ -278,23 +278,13 @@ class _SceneTable(Table):
 def _shared(
     outputs: tuple[Output, ...], traces: bool, sweeps: bool
 ) -> tuple[tuple[Output, ...], tuple[Output, ...]]:
-    """The files that are of [trace] and those that are of [sweep], of which a table may be either."""
-    traced, swept = [], []
-    for output in outputs:
-        of_trace, of_sweep = output.kind in TRACED, output.kind in SWEPT
-        if of_trace and of_sweep and traces and sweeps:
-            raise InputError(
-                output.field, str(output.path), "none where both [trace] and [sweep] could write it"
-            )
-        if of_trace and (traces or not of_sweep):
-            traced.append(output)
-        elif of_sweep:
-            swept.append(output)
-    for name, files, is_there in (("sweep", swept, sweeps), ("trace", traced, traces)):
+    """The files of `ribbonrs trace` and those of `ribbonrs sweep`; a table is of the one that is run."""
+    traced = tuple(o for o in outputs if o.kind in TRACED and (o.kind not in SWEPT or traces or not sweeps))
+    swept = tuple(o for o in outputs if o.kind in SWEPT and (o.kind not in TRACED or sweeps))
+    for name, files, is_there in (("trace", traced, traces), ("sweep", swept, sweeps)):
         if files and not is_there:
-            tables = "[trace] or [sweep]" if files[0].kind in TRACED and name == "sweep" else "a table"
-            raise InputError(name, MISSING, f"{tables}, of which {files[0].field} asks for a file")
-    return tuple(traced), tuple(swept)
+            raise InputError(name, MISSING, f"a table, of which {files[0].field} asks for a file")
+    return traced, swept
 
 
 def _named(field: str, table: _Kind) -> Any:

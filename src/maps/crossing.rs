@@ -29,10 +29,17 @@ pub struct Crossing<C> {
 }
 
 /// All equilibria at a place of an edge.
+#[derive(Clone)]
 struct Known {
     t: f64,
     shapes: Vec<Equilibrium>,
     class: Class,
+}
+
+impl Known {
+    fn is_blurred(&self) -> bool {
+        stable(&self.shapes).any(|shape| !shape.resolved)
+    }
 }
 
 /// The changes of class from one end of an edge to the other, to `tolerance` in the unit square, in their order.
@@ -50,23 +57,47 @@ pub fn crossings(
     let length = (edge[1][0] - edge[0][0]).hypot(edge[1][1] - edge[0][1]);
     let width = (tolerance / length).max(NARROWEST);
     let (mut here, end) = (known(0.0)?, known(1.0)?);
-    let mut found = Vec::new();
-    while here.class != end.class && found.len() < MOST {
-        let there = Known { t: end.t, class: end.class, shapes: end.shapes.clone() };
-        let (t, low, high) = change(plane, edge, [here, there], width, &known)?;
+    let (start, mut found) = (here.class, Vec::new());
+    for _ in 0..MOST {
+        if here.class == end.class {
+            break;
+        }
+        let (t, low, high) = change(plane, edge, [here, end.clone()], width, &known)?;
+        let high = beyond_blur(high, &end, width, &known)?;
         let at = place(edge, t);
-        found.push(Crossing {
-            at,
-            before: low.class,
-            after: high.class,
-            jump: jump(plane, at, [&low, &high])?,
-        });
+        if high.class != low.class {
+            let jump = jump(plane, at, [&low, &high])?;
+            found.push(Crossing { at, before: low.class, after: high.class, jump });
+        }
         here = high;
     }
-    if let Some(last) = found.last_mut() {
-        last.after = end.class;
+    // Whatever was lost on the way, the changes lead from one end to the other.
+    match found.last_mut() {
+        Some(last) => last.after = end.class,
+        None if start != end.class => {
+            found.push(Crossing { at: edge[1], before: start, after: end.class, jump: f64::NAN });
+        }
+        None => {}
     }
     Ok(found)
+}
+
+/// The first place from here on where the stable states are told apart from others: before, counts mean nothing.
+fn beyond_blur(
+    mut here: Known,
+    end: &Known,
+    width: f64,
+    known: &impl Fn(f64) -> Result<Known, InvalidInput>,
+) -> Result<Known, InvalidInput> {
+    let mut step = width;
+    while here.is_blurred() {
+        if here.t + step >= end.t {
+            return Ok(end.clone());
+        }
+        here = known(here.t + step)?;
+        step *= 4.0;
+    }
+    Ok(here)
 }
 
 /// Where between two places of different class the class of the first ends, with what is on both sides.

@@ -3,9 +3,10 @@
 //! | change | function of the place | |
 //! |---|---|---|
 //! | a symmetric state loses stability | least stiffness, which changes its sign | pitchfork |
-//! | two states exchange the lowest energy | difference of their energies | |
 //! | a state gets another name | `abs(K2)` or `abs(K3)` less the least that has a name | no bifurcation |
 //! | a state ends | square of its least stiffness, which falls to zero like a line | fold |
+//!
+//! Where two states exchange the lowest energy, or nothing here helps, bisection does.
 
 use super::class::stable;
 use super::plane::{Plane, scaled};
@@ -50,15 +51,14 @@ impl Stretch<'_> {
     pub fn proposals(&self, width: f64) -> impl Iterator<Item = f64> {
         let states: [Vec<Followed>; 2] = [0, 1].map(|end| self.stable(end));
         // Each kind only if those before did not do; a state of the far end is followed back.
-        (0..4).flat_map(move |kind| {
+        (0..3).flat_map(move |kind| {
             let each = |find: &dyn Fn(usize, &Followed) -> Option<f64>| -> Vec<f64> {
                 let ends = states.iter().enumerate();
                 ends.flat_map(|(end, states)| states.iter().filter_map(move |one| find(end, one))).collect()
             };
             match kind {
                 0 => each(&|end, state| self.loses_stability(end, state, width)),
-                1 => self.exchange(&states, width).into_iter().collect(),
-                2 => self.renamed(&states, width),
+                1 => self.renamed(&states, width),
                 _ => each(&|end, state| self.ends(end, state, width)),
             }
         })
@@ -109,15 +109,6 @@ impl Stretch<'_> {
             return None;
         }
         self.bracketed(width, |t| Some(self.between(t, [state, &other], end)?.softness))
-    }
-
-    /// The lowest states of both ends, where their energies are equal.
-    fn exchange(&self, states: &[Vec<Followed>; 2], width: f64) -> Option<f64> {
-        let (a, b) = (states[0].first()?, states[1].first()?);
-        let (a1, b0) = (self.near(self.ends[1], a)?, self.near(self.ends[0], b)?);
-        self.bracketed(width, |t| {
-            Some(self.between(t, [a, &a1], 0)?.energy - self.between(t, [&b0, b], 0)?.energy)
-        })
     }
 
     /// Where the bending or the twist of the lowest state begins to count.

@@ -111,15 +111,46 @@ def test_values_are_those_of_natural_shapes():
         assert found == pytest.approx((state.energy, *state.strain[2:]), rel=1e-12)
 
 
-def test_a_jump_where_two_states_have_the_same_energy():
-    # Transverse growth makes a saddle: it rolls up along the ribbon or across it.
-    growth = rb.growth.Profile(d33=[1.0], name="along") + rb.growth.Profile(d22=[-1.0], name="across")
-    scene = rb.Scene(rb.Ribbon(10.0, 1.0, 0.05), growth)
-    diagram = rb.phase_diagram(
-        scene, ("growth.along.amplitude", (-1.5, 1.5)), ("growth.across.amplitude", (-1.5, 1.5)), 40
-    )
-    assert {line.kind for line in diagram.boundaries} >= {"others"}
-    assert diagram.done.all()
+def test_a_saddle_rolls_up_along_or_across():
+    # With transverse growth as large there are two stable shapes, in two horns with their tips between points.
+    growth = rb.growth.Profile(d33=[1.0], name="along") + rb.growth.Profile(d22=[1.0], name="across")
+    scene = rb.Scene(rb.Ribbon(10.0, 1.0, 0.02), growth)
+    x, y = ("growth.along.amplitude", (-1.0, 1.0)), ("growth.across.amplitude", (-1.0, 1.0))
+    diagram = rb.phase_diagram(scene, x, y, 60)
+    assert {line.kind for line in diagram.boundaries} == {"others"}
+    # Turned about E1 the growth has the other sign: every point on a line has its image on one.
+    points = np.concatenate([line.points for line in diagram.boundaries])
+    tips = [np.min(np.abs(points[side * points.sum(axis=1) > 0.5].sum(axis=1))) for side in (1, -1)]
+    assert tips[0] == pytest.approx(tips[1], abs=2e-3)
+
+
+def test_an_orthotropic_ribbon_has_four_phases():
+    # Softer in twist than isotropic ones: a helix between the bent and the twisted ribbon.
+    material = rb.Orthotropic(Q33=4.0 / 3.0, Q22=4.0 / 3.0, Q23=2.0 / 3.0, G=0.31)
+    growth = rb.growth.edge(0.0) + rb.growth.Profile(gamma33=[0.0, 0.0, 0.0, 0.0, 1.0], name="quartic")
+    scene = rb.Scene(rb.Ribbon(10.0, 1.0, 0.04, material=material), growth)
+    diagram = rb.phase_diagram(scene, ("growth.quartic.amplitude", (-0.5, 0.5)), (EDGE, (-0.06, 0.06)), 50)
+    assert set(diagram.areas) == {"flat", "bent", "twisted", "helical"}
+    assert {(frozenset(line.phases), line.kind) for line in diagram.boundaries} == {
+        (frozenset(pair), "instability")
+        for pair in (("flat", "bent"), ("flat", "twisted"), ("bent", "helical"), ("twisted", "helical"))
+    }
+    # All four meet in one point, to a small part of a cell.
+    ends = np.array([line.points[k] for line in diagram.boundaries for k in (0, -1)])
+    inside = ends[np.all(np.abs(ends) < [0.49, 0.059], axis=1)]
+    assert len(inside) == 4
+    assert np.ptp(inside, axis=0) == pytest.approx([0.0, 0.0], abs=1e-3)
+
+
+def test_nearly_degenerate_instabilities_are_whole_lines():
+    # Close to isotropy a slight change of the growth turns the whole state: rounding blurs its stability.
+    material = rb.Orthotropic(Q33=4.0 / 3.0, Q22=4.0 / 3.0, Q23=2.0 / 3.0, G=0.32)
+    growth = rb.growth.edge(0.0) + rb.growth.Profile(gamma33=[0.0, 0.0, 0.0, 0.0, 0.1], name="quartic")
+    scene = rb.Scene(rb.Ribbon(10.0, 1.0, 0.05, material=material), growth + rb.growth.chiral(0.0))
+    diagram = rb.phase_diagram(scene, (SHEAR, (0.001, 0.021)), (EDGE, (-0.05, 0.08)), 50)
+    assert [(set(line.phases), line.kind) for line in diagram.boundaries] == [
+        ({"twisted", "helical"}, "instability")
+    ] * 2
 
 
 @pytest.mark.parametrize(

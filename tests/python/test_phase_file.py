@@ -170,10 +170,6 @@ def test_run_says_what_sweep_is_for(scene, capsys):
         (SCENE + SWEEP.replace("x = {", "z = {"), "sweep.z"),
         (SCENE + '[output]\nmap = "a.png"\n', "output.map asks for a file"),
         (SCENE + '[output]\ntable = "a.csv"\n', "output.table asks for a file"),
-        (
-            SCENE + SWEEP + f'[trace]\nparameter = "{EDGE}"\nspan = [0.0, 0.1]\n[output]\ntable = "a.csv"\n',
-            "both [trace] and [sweep]",
-        ),
     ],
 )
 def test_what_sweep_refuses(scene, capsys, text, message):

@@ -18,6 +18,7 @@ mod second_order;
 
 pub use along::{TOLERANCE, natural_branches};
 pub use branch::{Event, EventKind, NaturalBranch};
-pub(crate) use natural::settle;
 pub use natural::{Equilibrium, natural_shapes};
 pub use phase::{PHASE_TOLERANCE, Phase};
+
+pub(crate) use natural::settle;

@@ -112,7 +112,7 @@ def test_values_are_those_of_natural_shapes():
 
 
 def test_a_saddle_rolls_up_along_or_across():
-    # With transverse growth as large there are two stable shapes, in two horns with their tips between points.
+    # With transverse growth as large there are two stable shapes, in horns with their tips between points.
     growth = rb.growth.Profile(d33=[1.0], name="along") + rb.growth.Profile(d22=[1.0], name="across")
     scene = rb.Scene(rb.Ribbon(10.0, 1.0, 0.02), growth)
     x, y = ("growth.along.amplitude", (-1.0, 1.0)), ("growth.across.amplitude", (-1.0, 1.0))

@@ -9,7 +9,7 @@ use crate::section::{Amplitude, RibbonLaw, RibbonSpec, Station, Strain};
 #[derive(Debug)]
 pub struct Plane {
     corners: [RibbonSpec; 4],
-    /// All profiles, with modes of their own: every mixture of them is a section of this ribbon.
+    /// A ribbon along which the profiles vary that do so here: every mixture of them is a section of it.
     law: RibbonLaw,
 }
 
@@ -31,8 +31,12 @@ impl Plane {
             RibbonLaw::new(spec.clone())?;
         }
         let mut all = corners[0].clone();
-        for (amplitude, _) in &mut all.growth {
-            *amplitude = Amplitude::Along(Piecewise::from_legendre(vec![0.0, 1.0], vec![vec![1.0]])?);
+        for (i, (amplitude, _)) in all.growth.iter_mut().enumerate() {
+            let values = corners.each_ref().map(|spec| spec.growth[i].0.at(0.0));
+            if values.iter().any(|value| *value != values[0]) {
+                let some = values.into_iter().find(|value| *value != 0.0).unwrap_or_default();
+                *amplitude = Amplitude::Along(Piecewise::from_legendre(vec![0.0, 1.0], vec![vec![some]])?);
+            }
         }
         let plane = Self { law: RibbonLaw::new(all)?, corners };
         plane.station([0.0, 0.0])?;

@@ -195,7 +195,8 @@ def test_large_growth_is_warned_of():
 
 
 def test_the_quadratic_law_may_have_no_stable_state():
-    scene = rb.Scene(LEAF, rb.growth.edge(0.06) + rb.growth.chiral(0.01), law="quadratic")
+    growth = rb.growth.edge(0.06) + rb.growth.chiral(0.01) + rb.growth.thickness(0.0)
+    scene = rb.Scene(LEAF, growth, law="quadratic")
     diagram = rb.phase_diagram(scene, (SHEAR, (0.0, 0.05)), (EDGE, (0.0, 0.09)), 12)
     assert "none stable" in diagram.phase
     assert np.isnan(diagram.energy[diagram.phase == "none stable"]).all()

@@ -6,6 +6,7 @@
 //! - [`material`], [`growth`]: what the ribbon is made of and how it grows;
 //! - [`section`]: the energy of the relaxed cross-section, its derivatives and its deflection;
 //! - [`equilibrium`]: every unloaded equilibrium of a uniformly growing ribbon;
+//! - [`maps`]: phase diagrams over two parameters;
 //! - [`frame`]: from the strains along the ribbon to its position and orientation in space.
 //!
 //! # Conventions
@@ -21,6 +22,7 @@ pub mod equilibrium;
 pub mod frame;
 pub mod growth;
 pub mod legendre;
+pub mod maps;
 pub mod material;
 pub mod piecewise;
 pub mod section;

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from .continuation import trace
     from .diagram import Diagram, load_diagram
     from .parameter import parameters
+    from .phasediagram import PhaseDiagram, load_phase_diagram, phase_diagram
 
 __all__ = [
     "Clamped",
@@ -48,6 +49,7 @@ __all__ = [
     "LinearLaw",
     "MooneyRivlin",
     "Orthotropic",
+    "PhaseDiagram",
     "Pinned",
     "PointLoad",
     "Ribbon",
@@ -61,8 +63,10 @@ __all__ = [
     "growth",
     "integrate_frame",
     "load_diagram",
+    "load_phase_diagram",
     "natural_shapes",
     "parameters",
+    "phase_diagram",
     "solve",
     "trace",
     "weight",
@@ -71,8 +75,11 @@ __all__ = [
 
 LATER = {
     "Diagram": ".diagram",
+    "PhaseDiagram": ".phasediagram",
     "load_diagram": ".diagram",
+    "load_phase_diagram": ".phasediagram",
     "parameters": ".parameter",
+    "phase_diagram": ".phasediagram",
     "trace": ".continuation",
 }
 """Names that are loaded when they are first used, from these modules."""

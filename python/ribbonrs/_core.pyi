@@ -1,6 +1,6 @@
 """Numerical core of ribbonrs: arrays in, arrays out. Use the functions and classes of `ribbonrs` instead."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TypeAlias, final
 
 import numpy as np
@@ -19,7 +19,9 @@ __all__ = [
     "integrate_gauss",
     "integrate_nodal",
     "integrate_segments",
+    "map_outline",
     "natural_shapes_of",
+    "phase_map",
     "trace",
     "trace_natural",
 ]
@@ -35,6 +37,9 @@ _State: TypeAlias = tuple[list[float], list[float], list[float], list[float]]
 _Parts: TypeAlias = tuple[
     int, list[float], list[_State], list[list[float]], tuple[str, str], list[float], list[int], list[float]
 ]
+_Side: TypeAlias = tuple[int, bytes] | None
+_Line: TypeAlias = tuple[_Array, _Array, _Side, _Side]
+_Changes: TypeAlias = Sequence[tuple[int, Sequence[tuple[float, float, int, int]]]]
 _Guess: TypeAlias = tuple[_Array, _Array, _Array, _Array, _Array, _Array]
 
 @final
@@ -220,6 +225,20 @@ def trace_natural(
     depth: int,
     max_steps: int,
 ) -> Trace: ...
+def phase_map(
+    laws: Sequence[SectionLaw],
+    xs: Sequence[float],
+    ys: Sequence[float],
+    tol: float,
+    report: Callable[[int], object] | None = None,
+) -> tuple[NDArray[np.int8], NDArray[np.uint8], _Array, NDArray[np.bool_], list[_Line], bool]: ...
+def map_outline(
+    classes: NDArray[np.int64],
+    xs: Sequence[float],
+    ys: Sequence[float],
+    along_x: _Changes,
+    along_y: _Changes,
+) -> list[tuple[_Array, _Array, int, int]]: ...
 def natural_shapes_of(laws: Sequence[SectionLaw]) -> list[_Shapes]: ...
 def helix(
     S: _Array,

@@ -1,6 +1,7 @@
-"""The command line: ``ribbonrs run SCENE.toml`` and ``ribbonrs trace SCENE.toml``.
+"""The command line: ``ribbonrs run SCENE.toml``, and ``ribbonrs trace`` and ``ribbonrs sweep`` likewise.
 
-Exit status 0, or 2 for wrong input, 1 where no solution was found; the reason is one line on stderr.
+Exit status 0, or 2 for wrong input, 1 where no solution was found, 130 after an interrupt; the reason is one
+line on stderr.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ import argparse
 import io
 import os
 import sys
+import time
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -22,28 +24,32 @@ from .errors import MISSING, InputError, RibbonError, RibbonWarning
 from .outputs import Output, write_all
 from .scenefile import read
 from .summary import summary
+from .sweep_summary import sweep_summary
 from .trace_summary import trace_summary
 
 __all__ = ["main"]
+
+INTERRUPTED = 130
+"""Exit status after an interrupt, also where what was done until then is written."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit status."""
     given = _parser().parse_args(arguments)
     try:
-        given.command(given.scene)
+        status: int = given.command(given.scene)
         print(end="", flush=True)
     except InputError as error:
         return _fail(str(error), 2)
     except RibbonError as error:
         return _fail(str(error), 1)
     except KeyboardInterrupt:
-        return _fail("interrupted", 130)
+        return _fail("interrupted", INTERRUPTED)
     except OSError as error:  # a closed pipe, a full disk: reading and writing files name their field instead
         # Keep the interpreter from failing again at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1 if isinstance(error, BrokenPipeError) else _fail(f"standard output: {error.strerror}", 1)
-    return 0
+    return status
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -54,6 +60,7 @@ def _parser() -> argparse.ArgumentParser:
     for name, command, told in (
         ("run", _run, "find the shapes of a scene, show and save them"),
         ("trace", _trace, "follow the shapes of a scene along a parameter, show and save the branches"),
+        ("sweep", _sweep, "find the phases of a scene over two parameters, draw and save them"),
     ):
         added = commands.add_parser(name, help=told)
         added.add_argument("scene", type=Path, metavar="SCENE.toml", help="the scene file")
@@ -61,18 +68,23 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _run(path: Path) -> None:
+def _run(path: Path) -> int:
     with _told_warnings():
         job = read(path)
         states = [] if job.scene.loaded else equilibria(job.scene)
         state = chosen(states) if states else solve(job.scene, **job.options)
         others = [other for other in states if other is not state]
         write_all(job.outputs, lambda kind, path: (state.plot if kind == "figure" else state.save)(path))
-    notes = ["`ribbonrs trace` draws the branches that [trace] asks for."] if job.trace else []
+    notes = [
+        f"`ribbonrs {name}` draws the {what} that [{name}] asks for."
+        for name, what, asked in (("trace", "branches", job.trace), ("sweep", "phases", job.sweep))
+        if asked
+    ]
     _print(summary(job.scene, state, others), notes, job.outputs)
+    return 0
 
 
-def _trace(path: Path) -> None:
+def _trace(path: Path) -> int:
     with _told_warnings():
         job = read(path)
         if job.trace is None:
@@ -87,6 +99,25 @@ def _trace(path: Path) -> None:
         }
         write_all(job.traced, lambda kind, path: writers[kind](path))
     _print(told, [], job.traced)
+    return 0
+
+
+def _sweep(path: Path) -> int:
+    with _told_warnings():
+        job = read(path)
+        if job.sweep is None:
+            raise InputError("sweep", MISSING, "a table with two parameters and their spans, x and y")
+        begun = time.perf_counter()
+        diagram = job.sweep.diagram(job.scene)
+        told = sweep_summary(diagram, time.perf_counter() - begun)
+        writers: dict[str, Callable[[Path], object]] = {
+            "map": diagram.plot,
+            "table": diagram.to_csv,
+            "phases": diagram.save,
+        }
+        write_all(job.swept, lambda kind, path: writers[kind](path))
+    _print(told, [], job.swept)
+    return INTERRUPTED if diagram.interrupted else 0
 
 
 @contextmanager

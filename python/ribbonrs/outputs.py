@@ -13,7 +13,7 @@ from typing import Any
 from .errors import InputError
 from .growthtable import Table
 
-__all__ = ["SUFFIXES", "TRACED", "Output", "OutputTable", "write_all"]
+__all__ = ["SUFFIXES", "SWEPT", "TRACED", "Output", "OutputTable", "write_all"]
 
 SUFFIXES = {
     "figure": (".png", ".pdf", ".svg"),
@@ -22,11 +22,16 @@ SUFFIXES = {
     "diagram": (".png", ".pdf", ".svg"),
     "table": (".csv",),
     "branches": (".npz",),
+    "map": (".png", ".pdf", ".svg"),
+    "phases": (".npz",),
 }
 """The kinds of output and what their files are called."""
 
 TRACED = ("diagram", "table", "branches")
-"""The kinds that `ribbonrs trace` writes; `ribbonrs run` writes the others."""
+"""The kinds that `ribbonrs trace` writes."""
+
+SWEPT = ("map", "table", "phases")
+"""The kinds that `ribbonrs sweep` writes; `ribbonrs run` writes what is in neither."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +52,8 @@ class OutputTable(Table):
     diagram: Any = None
     table: Any = None
     branches: Any = None
+    map: Any = None
+    phases: Any = None
 
     def make(self) -> tuple[Output, ...]:
         """Return every file, each of another name."""

@@ -25,9 +25,10 @@ from .growthtable import TABLE, VALUE, Along, GrowthTable, Table, as_list, table
 from .linear import LinearLaw
 from .loads import LineLoad, PointLoad, weight
 from .material import Isotropic, MooneyRivlin, Orthotropic
-from .outputs import TRACED, Output, OutputTable
+from .outputs import SWEPT, TRACED, Output, OutputTable
 from .ribbon import Ribbon
 from .scene import Scene
+from .sweeptable import Sweeping, SweepTable
 from .tracetable import TraceTable, Tracing
 
 if sys.version_info >= (3, 11):
@@ -50,6 +51,9 @@ class Job:
     trace: Tracing | None
     traced: tuple[Output, ...]
     """What `ribbonrs trace` writes."""
+    sweep: Sweeping | None
+    swept: tuple[Output, ...]
+    """What `ribbonrs sweep` writes."""
 
 
 def read(path: str | os.PathLike[str]) -> Job:
@@ -236,6 +240,7 @@ class _SceneTable(Table):
     law: _Law = None
     solve: _SolveTable = _SolveTable()
     trace: TraceTable | None = None
+    sweep: SweepTable | None = None
     output: OutputTable = OutputTable()
 
     def make(self, directory: Path) -> Job:
@@ -259,16 +264,27 @@ class _SceneTable(Table):
         if "law" in given:
             arguments["law"] = LinearLaw(**self.law.given()) if isinstance(self.law, _LawTable) else self.law
         tracing = None if self.trace is None else self.trace.make()
+        sweeping = None if self.sweep is None else self.sweep.make()
         options, outputs = self.solve.make(), self.output.make()
         scene = Scene(**arguments)
-        if tracing is not None:
-            tracing.check(scene)
-        solved, traced = (
-            tuple(output for output in outputs if (output.kind in TRACED) is kind) for kind in (False, True)
-        )
-        if traced and tracing is None:
-            raise InputError("trace", MISSING, f"a table, of which {traced[0].field} asks for a file")
-        return Job(scene, options, solved, tracing, traced)
+        for asked in (tracing, sweeping):
+            if asked is not None:
+                asked.check(scene)
+        solved = tuple(output for output in outputs if output.kind not in (*TRACED, *SWEPT))
+        traced, swept = _shared(outputs, tracing is not None, sweeping is not None)
+        return Job(scene, options, solved, tracing, traced, sweeping, swept)
+
+
+def _shared(
+    outputs: tuple[Output, ...], traces: bool, sweeps: bool
+) -> tuple[tuple[Output, ...], tuple[Output, ...]]:
+    """The files of `ribbonrs trace` and those of `ribbonrs sweep`; a table is of the one that is run."""
+    traced = tuple(o for o in outputs if o.kind in TRACED and (o.kind not in SWEPT or traces or not sweeps))
+    swept = tuple(o for o in outputs if o.kind in SWEPT and (o.kind not in TRACED or sweeps))
+    for name, files, is_there in (("trace", traced, traces), ("sweep", swept, sweeps)):
+        if files and not is_there:
+            raise InputError(name, MISSING, f"a table, of which {files[0].field} asks for a file")
+    return traced, swept
 
 
 def _named(field: str, table: _Kind) -> Any:

@@ -20,3 +20,5 @@ pub use along::{TOLERANCE, natural_branches};
 pub use branch::{Event, EventKind, NaturalBranch};
 pub use natural::{Balance, Equilibrium, balance, natural_shapes};
 pub use phase::{PHASE_TOLERANCE, Phase};
+
+pub(crate) use natural::settle;

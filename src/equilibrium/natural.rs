@@ -85,7 +85,7 @@ impl Station {
 }
 
 /// An equilibrium in the ribbon's units, not checked against others nearby.
-pub(super) struct Settled {
+pub(crate) struct Settled {
     pub shape: Equilibrium,
     /// Rounding error of the curvatures: that of the balance over the stiffness.
     pub noise: f64,
@@ -94,7 +94,7 @@ pub(super) struct Settled {
 }
 
 /// The equilibrium to which Newton's method leads from these strains.
-pub(super) fn settle(station: &Station, start: &Strain) -> Option<Settled> {
+pub(crate) fn settle(station: &Station, start: &Strain) -> Option<Settled> {
     let section = station.section();
     let (local, eta) = (station.local(start), section.eta());
     let point = polish(section, Point { k: local[2] / eta, q: local[3] / eta, resolved: true })?;

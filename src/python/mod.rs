@@ -7,6 +7,7 @@ mod boundary;
 mod branch;
 mod continuation;
 mod frame;
+mod maps;
 mod section;
 
 use numpy::PyReadonlyArray2;
@@ -55,6 +56,8 @@ mod _core {
     use super::continuation::{Trace, TracedBranch, trace, trace_natural};
     #[pymodule_export]
     use super::frame::{gauss_points, helix, integrate_gauss, integrate_nodal, integrate_segments};
+    #[pymodule_export]
+    use super::maps::{map_outline, phase_map};
     #[pymodule_export]
     use super::section::{SectionLaw, natural_shapes_of};
 

@@ -182,14 +182,26 @@ impl RibbonLaw {
 
     fn make(&self, s: f64) -> Result<Station, InvalidInput> {
         let spec = &self.spec;
-        let (width, thickness) = (spec.width.at(s), spec.thickness.at(s));
         let amplitudes: Vec<f64> = spec.growth.iter().map(|(amplitude, _)| amplitude.at(s)).collect();
+        self.mixed(spec.eta, &amplitudes, spec.width.at(s), spec.thickness.at(s))
+    }
+
+    /// The law of a section with these amplitudes of the profiles, of which only those that vary may differ from the
+    /// ribbon's.
+    pub(crate) fn mixed(
+        &self,
+        eta: f64,
+        amplitudes: &[f64],
+        width: f64,
+        thickness: f64,
+    ) -> Result<Station, InvalidInput> {
+        let spec = &self.spec;
         let active: Vec<usize> = (0..amplitudes.len()).filter(|&i| amplitudes[i] != 0.0).collect();
         let mut growth = Growth::default();
         for &i in &active {
             growth.add_scaled(amplitudes[i], width, &spec.growth[i].1);
         }
-        let eta = spec.eta * thickness / width;
+        let eta = eta * thickness / width;
         let reach = self.reach(&growth, &active);
         let section = Section::with_reach(eta, growth, &spec.stiffness, spec.form, reach)?;
         Ok(Station { section, width, weight: width * thickness })

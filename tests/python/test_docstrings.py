@@ -18,6 +18,7 @@ WITH_EXAMPLES = {
     "law",
     "measured",
     "parameter",
+    "phasediagram",
     "pieces",
     "profile",
     "ribbon",

@@ -280,7 +280,7 @@ def test_windows_text(job):
         (
             SCENE.replace("[growth]", "[grwoth]"),
             "grwoth = {'edge': 0.06}: expected one of ribbon, material, growth, start, end, gravity, weight, "
-            "loads, law, solve, trace, output; the nearest is growth",
+            "loads, law, solve, trace, sweep, output; the nearest is growth",
         ),
         (
             SCENE + '[end]\nkind = "free"\nforces = 1',
@@ -293,8 +293,8 @@ def test_windows_text(job):
         ),
         (
             SCENE + '[output]\n"sur\\nface" = 1',
-            "output.'sur\\nface' = 1: expected one of figure, surface, data, diagram, table, branches; the "
-            "nearest is surface",
+            "output.'sur\\nface' = 1: expected one of figure, surface, data, diagram, table, branches, map, "
+            "phases; the nearest is surface",
         ),
         (
             RIBBON + "[growth]\nedge = {S = [0, 1], value = [0, 1]}",

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from .continuation import trace
     from .deflation import find_states
     from .diagram import Diagram, load_diagram
+    from .locus import Locus, trace_locus
     from .parameter import parameters
     from .phasediagram import PhaseDiagram, load_phase_diagram, phase_diagram
 
@@ -48,6 +49,7 @@ __all__ = [
     "Isotropic",
     "LineLoad",
     "LinearLaw",
+    "Locus",
     "MooneyRivlin",
     "Orthotropic",
     "PhaseDiagram",
@@ -71,6 +73,7 @@ __all__ = [
     "phase_diagram",
     "solve",
     "trace",
+    "trace_locus",
     "weight",
 ]
 
@@ -80,10 +83,12 @@ LATER = {
     "PhaseDiagram": ".phasediagram",
     "load_diagram": ".diagram",
     "find_states": ".deflation",
+    "Locus": ".locus",
     "load_phase_diagram": ".phasediagram",
     "parameters": ".parameter",
     "phase_diagram": ".phasediagram",
     "trace": ".continuation",
+    "trace_locus": ".locus",
 }
 """Names that are loaded when they are first used, from these modules."""
 

@@ -197,6 +197,16 @@ class TracedBranch:
     @property
     def mirrored(self) -> bool: ...
     def solution(self, i: int) -> BoundarySolution | None: ...
+    def locus(
+        self,
+        place: int,
+        kind: str,
+        corners: Sequence[BoundaryProblem] | Sequence[SectionLaw],
+        other_span: tuple[float, float],
+        other_value: float,
+        max_steps: int,
+        tol: float,
+    ) -> tuple[_Array, tuple[str, str]]: ...
     def between(self, i: int, fraction: float) -> tuple[float, _Array, BoundarySolution | None]: ...
 
 @final

@@ -170,7 +170,7 @@ impl System {
             }
             None => matrix[(size, size)] = 1.0,
         }
-        Bordered(Kind::Chain { by_parameter: rhs, panel: Panel::new(&matrix, sizes, nullity) })
+        Bordered(Kind::Chain { by_parameter: rhs, panel: Panel::new(&matrix, &sizes, nullity) })
     }
 
     /// The last panel with the column of the parameter, and a row of zeros.

@@ -11,7 +11,7 @@ use super::iterate::Layout;
 use super::law::{Law, Rod};
 use super::problem::{LineLoad, PointLoad, Problem};
 use crate::InvalidInput;
-use crate::section::{Amplitude, RibbonLaw, RibbonSpec, blend};
+use crate::section::{Amplitude, RibbonLaw, RibbonSpec, blend, corner_weights};
 
 /// Problems that depend on one or two parameters, each from 0 to 1.
 #[derive(Clone, Debug)]
@@ -61,19 +61,13 @@ impl Family {
         if loaded { Layout::Moment } else { Layout::Constant }
     }
 
-    /// Weights of the corners but the first.
-    fn weights(&self, at: [f64; 2]) -> Vec<f64> {
-        let [t, u] = at;
-        if self.corners.len() == 2 { vec![t] } else { vec![t * (1.0 - u), u * (1.0 - t), t * u] }
-    }
-
     /// The problem at these parameters, of which the second counts if there are two.
     ///
     /// # Errors
     /// As [`Problem::new`].
     pub fn at(&self, at: [f64; 2]) -> Result<Arc<Problem>, InvalidInput> {
         let (first, others) = (&self.corners[0], &self.corners[1..]);
-        let weights = self.weights(at);
+        let weights = corner_weights(self.corners.len(), at);
         let between = |field: &dyn Fn(&Problem) -> f64| {
             blend(field(first), weights.iter().zip(others).map(|(w, other)| (*w, field(other))))
         };

@@ -38,12 +38,15 @@ impl Panel {
     /// Factorises a matrix whose columns are of these sizes if nothing cancels in them. So many of its singular values vanish, or, if
     /// that is not known, as many as do.
     #[must_use]
-    pub fn new(matrix: &DMatrix<f64>, sizes: Vec<f64>, nullity: Option<usize>) -> Self {
+    pub fn new(matrix: &DMatrix<f64>, sizes: &[f64], nullity: Option<usize>) -> Self {
         let size = matrix.nrows();
         let mut block: Vec<f64> = matrix.transpose().as_slice().to_vec();
         let mut swaps = vec![0; size];
         eliminate(&mut block, size, size, &mut swaps);
-        let scale = DVector::from_vec(sizes).map(|size| size.max(f64::MIN_POSITIVE));
+        // Nothing is divided by a size that is none.
+        let own = matrix.column_iter().map(|column| column.amax());
+        let scale = sizes.iter().zip(own).map(|(size, own)| size.max(own));
+        let scale = DVector::from_iterator(size, scale.map(|size| if size > 1e-200 { size } else { 1.0 }));
         let regular = Self::Regular { block, swaps };
         // Of no particular direction.
         let trial = regular.solve((0..size).map(|i| 1.0 + 0.1 * i as f64).collect());
@@ -59,6 +62,9 @@ impl Panel {
         let mut scaled = matrix.clone();
         for (mut column, size) in scaled.column_iter_mut().zip(scale.iter()) {
             column /= *size;
+        }
+        if !scaled.iter().all(|x| x.is_finite()) {
+            return None;
         }
         let svd = scaled.svd(true, true);
         let (u, v) = (svd.u?, svd.v_t?);
@@ -122,7 +128,7 @@ mod tests {
     #[test]
     fn of_a_singular_matrix_the_least_solution() {
         let matrix = DMatrix::from_row_slice(3, 3, &[2.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1.0, 1.0 + 1e-15]);
-        let panel = Panel::new(&matrix, vec![1.0; matrix.ncols()], None);
+        let panel = Panel::new(&matrix, &vec![1.0; matrix.ncols()], None);
         assert_eq!(panel.kernel().len(), 1);
         let x = panel.solve(vec![4.0, 3.0, 3.0]);
         for (x, exact) in x.iter().zip([2.0, 1.5, 1.5]) {
@@ -135,7 +141,7 @@ mod tests {
     #[test]
     fn of_a_regular_matrix_its_solution() {
         let matrix = DMatrix::from_row_slice(2, 2, &[0.0, 2.0, 3.0, 1e-9]);
-        let panel = Panel::new(&matrix, vec![1.0; matrix.ncols()], None);
+        let panel = Panel::new(&matrix, &vec![1.0; matrix.ncols()], None);
         assert_eq!((panel.kernel().len(), panel.determinant().sign), (0, -1.0));
         assert_eq!(panel.solve(vec![2.0, 3.0 + 1e-9]), vec![1.0, 1.0]);
     }

@@ -158,7 +158,7 @@ pub fn follow<E: Equations>(
     let (mut fine, mut since) = (0, CHECKED);
     let mut steps = 0;
     let mut at_end = false;
-    let mut meshes = 0;
+    let (mut meshes, mut unresolved_before) = (0, f64::INFINITY);
     loop {
         if meshes > MOST_MESHES {
             branch.ended[1] = Ended::Failed(Failed::Unresolved(meshes));
@@ -187,7 +187,12 @@ pub fn follow<E: Equations>(
             break;
         }
         equations.expect_motions(Some(motions));
-        let next = match advanced(equations, &branch.points, memory, step, limits) {
+        let last = branch.points.len() - 1;
+        let next = advanced(equations, &branch.points, memory, step, limits).and_then(|next| {
+            let found = special_points(equations, &branch.points[last], &next.point, limits)?;
+            Ok((next, found))
+        });
+        let (next, found) = match next {
             Ok(next) => next,
             Err(failed) => {
                 step *= 0.3;
@@ -200,10 +205,10 @@ pub fn follow<E: Equations>(
             }
         };
         (steps, since) = (steps + 1, since + 1);
-        let last = branch.points.len() - 1;
         let mut stopped = false;
-        let found = special_points(equations, &branch.points[last], &next.point, limits);
-        if let Some(finer) = found.iter().find_map(|found| unresolved(equations, found, limits)) {
+        let coarse = found.iter().find_map(|found| unresolved(equations, found, limits, unresolved_before));
+        if let Some((finer, error)) = coarse {
+            unresolved_before = error;
             if let Err(failed) = restart(equations, &mut branch, fine, &finer, limits) {
                 branch.ended[1] = ended_by(branch.points.last(), failed);
                 break;
@@ -343,8 +348,14 @@ fn restart<E: Equations>(
     let point = &branch.points[fine];
     let (x, along) = equations.remeshed(&point.x, &point.along.x, like, point.t)?;
     let along = Direction { x: along, t: point.along.t };
-    let guess = Guess { x, t: point.t, across: Some(&along), sense: Some(&along) };
+    // What the branch begins with, or was asked for, is at a value of the parameter, which it keeps.
+    let kept = fine == 0 && along.t.abs() > 0.1;
+    let across = if kept { None } else { Some(&along) };
+    let guess = Guess { x, t: point.t, across, sense: Some(&along) };
     let mut again = corrected(equations, guess, limits.tolerance, true)?.point;
+    if kept {
+        again.t = point.t;
+    }
     again.s = point.s;
     branch.points.truncate(fine);
     branch.points.push(again);
@@ -354,12 +365,21 @@ fn restart<E: Equations>(
 
 /// The state at a branch point on a mesh twice as fine, if this one is too coarse: a straight ribbon is exact on any mesh, but not the
 /// shape into which it buckles.
-fn unresolved<E: Equations>(equations: &mut E, found: &Found<E>, limits: &Limits) -> Option<E::State> {
+fn unresolved<E: Equations>(
+    equations: &mut E,
+    found: &Found<E>,
+    limits: &Limits,
+    before: f64,
+) -> Option<(E::State, f64)> {
     let Found { point, kind: SpecialKind::BranchPoint, multiplicity } = found else { return None };
     let across = across(equations, point, *multiplicity).into_iter().next()?;
     let aside = stepped(equations, point, &across, limits)?;
-    let error = equations.parameter_error(&aside.x, aside.t, &across).ok()?;
-    if error.abs() < MOVED { None } else { equations.doubled(&point.x, point.t).ok()? }
+    let error = equations.parameter_error(&aside.x, aside.t, &across).ok()?.abs();
+    // What a finer mesh did not help is rounding.
+    if error < MOVED || error > 0.25 * before {
+        return None;
+    }
+    Some((equations.doubled(&point.x, point.t).ok()??, error))
 }
 
 /// Error of the parameter at a branch point that is too large.
@@ -371,14 +391,21 @@ fn is_closed<E: Equations>(equations: &mut E, branch: &BranchOf<E>, last: usize)
     if last < 4 || (first.t - a.t) * (first.t - b.t) > 0.0 || first.along.t * b.along.t < 0.0 {
         return false;
     }
-    let [here, there] = [first, b].map(|point| equations.invariants(&point.x, point.t));
-    let apart = here.iter().zip(&there).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    let size = here.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
-    let step = b.s - a.s;
-    // Tangents on different meshes are not compared.
-    let backward = dot(equations, &first.along, &b.along) < 0.5;
-    apart < 2.0 * step * size.max(1.0) && !backward
+    // Where the branch has the parameter of its first point.
+    let part = (first.t - a.t) / (b.t - a.t);
+    let apart = |numbers: [Vec<f64>; 3]| {
+        let [here, from, to] = numbers;
+        let size = here.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
+        let there = from.iter().zip(&to).map(|(a, b)| a + part * (b - a));
+        here.iter().zip(there).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) / size
+    };
+    let points = [first, a, b];
+    apart(points.map(|point| equations.coordinates(&point.x, point.t))) < CLOSED
+        && apart(points.map(|point| equations.invariants(&point.x, point.t))) < CLOSED
 }
+
+/// Relative difference of what a closed branch comes back to, by linear interpolation.
+const CLOSED: f64 = 0.02;
 
 /// The first point of a branch: the equilibrium at `t` near `x`.
 ///

@@ -47,7 +47,7 @@ const ITERATIONS: usize = 10;
 /// After a correction below this, one more with the same factors is tried.
 const SMALL: f64 = 1e-2;
 /// Tangent and stability are exact enough if the last correction before them was below this.
-const EXACT: f64 = 1e-7;
+const EXACT: f64 = 1e-10;
 /// Below this corrections that no longer shrink are rounding, which a branch point near by amplifies along the other branch.
 const ROUNDING: [f64; 2] = [1e-9, 1e-7];
 
@@ -102,7 +102,7 @@ pub fn corrected<E: Equations>(
             return Err(Failed::Diverged(again));
         }
         before = again;
-        if (again <= tolerance || rounding) && !(exactly && size > EXACT) {
+        if (again <= tolerance || rounding) && (rounding || !exactly || size <= EXACT) {
             let x = equations.settled(x, t)?;
             let place = equations.settled(linearised.0, linearised.1)?;
             let stability = equations.stability(&place, linearised.1);

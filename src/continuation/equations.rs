@@ -49,6 +49,9 @@ pub enum Failed {
     /// Meshes that do not meet the tolerance.
     #[error("{0} meshes do not meet the tolerance")]
     Unresolved(usize),
+    /// More elements than are allowed would be needed.
+    #[error("{0} elements would be needed")]
+    Fine(usize),
     /// It converges to what is not near.
     #[error("the next equilibrium is not near")]
     Jumped,
@@ -113,6 +116,9 @@ pub trait Equations {
 
     /// Stability at `(x, t)`, where the equations were linearised.
     fn stability(&mut self, x: &Self::State, t: f64) -> Stability;
+
+    /// Numbers that tell mirror images apart, too.
+    fn coordinates(&mut self, x: &Self::State, t: f64) -> Vec<f64>;
 
     /// Numbers that are the same for mirror images, to tell equilibria apart.
     fn invariants(&mut self, x: &Self::State, t: f64) -> Vec<f64>;

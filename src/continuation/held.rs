@@ -6,6 +6,7 @@ use std::time::Instant;
 use nalgebra::Vector3;
 
 use super::equations::{Direction, Equations, Failed, Stability, dot, plus, unit};
+use super::locus::Plane;
 use crate::InvalidInput;
 use crate::boundary::{
     Bordered, Correction, Defects, Failure, Family, Iterate, Layout, Line, Mesh, Problem, Stepper, System,
@@ -59,8 +60,9 @@ pub struct Work {
 /// The equations of a family of problems.
 pub struct Held {
     family: Family,
-    /// The other parameter, if there are two.
-    pub other: f64,
+    /// The other parameter, if there are two, and whether it is the first.
+    other: f64,
+    exchanged: bool,
     degree: usize,
     /// The states that the loads need anywhere in the family.
     layout: Layout,
@@ -79,7 +81,7 @@ pub struct Held {
 /// Change of the parameter by which the equations are differentiated: in twist, length and thickness they are not linear.
 const DIFFERENCE: f64 = 1e-7;
 /// Elements that are too many.
-const MOST_ELEMENTS: usize = 4000;
+const MOST_ELEMENTS: usize = 1000;
 /// Error that a finer mesh is made for, of the tolerance.
 const MARGIN: f64 = 0.02;
 
@@ -100,6 +102,7 @@ impl Held {
         Self {
             family,
             other,
+            exchanged: false,
             degree,
             layout,
             tolerance,
@@ -121,7 +124,8 @@ impl Held {
         match &self.at {
             Some((known, problem)) if *known == t => Ok(Arc::clone(problem)),
             _ => {
-                let problem = self.family.at([t, self.other])?;
+                let problem =
+                    self.family.at(if self.exchanged { [self.other, t] } else { [t, self.other] })?;
                 self.at = Some((t, Arc::clone(&problem)));
                 Ok(problem)
             }
@@ -170,6 +174,12 @@ impl Held {
         let done = spent.of(|| system.evaluate(&settled, &goal(&problem)));
         self.work.evaluated = spent;
         Ok(done?)
+    }
+}
+
+impl Plane for Held {
+    fn hold(&mut self, other: f64, exchanged: bool) {
+        (self.other, self.exchanged, self.at) = (other, exchanged, None);
     }
 }
 
@@ -268,6 +278,24 @@ impl Equations for Held {
         Stability { section_index: sections.index, section, index, free_motions: free, determinant }
     }
 
+    fn coordinates(&mut self, x: &HeldState, _: f64) -> Vec<f64> {
+        let Some(system) = &self.system else { return Vec::new() };
+        let (length, weights) = (system.mesh.problem.length, &system.mesh.gauss.weights);
+        // Means of the strains over both halves.
+        let mut sums = vec![0.0; 8];
+        for (i, pair) in x.nodes.windows(2).enumerate() {
+            let half = if pair[0] + pair[1] < 1.0 { 0 } else { 4 };
+            let strains = &x.x.strains[i * self.degree..(i + 1) * self.degree];
+            for (strain, weight) in strains.iter().zip(weights) {
+                for k in 0..4 {
+                    let scale = if k == 0 { 1.0 } else { length };
+                    sums[half + k] += (pair[1] - pair[0]) * weight * scale * strain[k];
+                }
+            }
+        }
+        sums
+    }
+
     fn invariants(&mut self, x: &HeldState, _: f64) -> Vec<f64> {
         let Some(system) = &self.system else { return Vec::new() };
         let length = system.mesh.problem.length;
@@ -301,10 +329,13 @@ impl Equations for Held {
         let system = self.system(x, t)?;
         let mut estimated = defects.estimate(&error.x, &system.mesh.problem);
         estimated.error = estimated.error.max(error.t.abs());
-        if estimated.error <= tolerance || system.mesh.elements() >= MOST_ELEMENTS {
+        if estimated.error <= tolerance {
             return Ok(None);
         }
         let nodes = refined(&system.mesh, &estimated, MARGIN * tolerance);
+        if nodes.len() > MOST_ELEMENTS {
+            return Err(Failed::Fine(nodes.len()));
+        }
         Ok(Some(transferred_to(&system.mesh, &x.x, nodes, degree)?))
     }
 

@@ -1,8 +1,8 @@
 //! Special points between two points of a branch.
 
 use super::branch::{Limits, SpecialKind};
-use super::correct::{Guess, PointOf, corrected};
-use super::equations::{Direction, Equations, Failed, Stability, unit};
+use super::correct::{DirectionOf, Guess, PointOf, corrected};
+use super::equations::{Direction, Equations, Failed, Stability, dot, unit};
 
 /// A special point that was found.
 pub struct Found<E: Equations> {
@@ -20,14 +20,17 @@ const MOST: usize = 60;
 const DEEPEST: usize = 12;
 
 /// The special points between two points, in order.
+///
+/// # Errors
+/// Where there is one that is not found: the two are too far apart.
 pub fn special_points<E: Equations>(
     equations: &mut E,
     a: &PointOf<E>,
     b: &PointOf<E>,
     limits: &Limits,
-) -> Vec<Found<E>> {
+) -> Result<Vec<Found<E>>, Failed> {
     let mut found = Vec::new();
-    between(equations, a, b, 0, &mut found);
+    between(equations, a, b, 0, &mut found)?;
     for &value in &limits.values {
         let mut ends: Vec<&PointOf<E>> = vec![a];
         ends.extend(found.iter().map(|special| &special.point));
@@ -37,10 +40,10 @@ pub fn special_points<E: Equations>(
             .filter(|pair| (pair[0].t - value) * (pair[1].t - value) < 0.0)
             .filter_map(|pair| at_value(equations, pair[0], pair[1], value))
             .collect();
-        found.extend(met.into_iter().map(|point| Found { point, kind: SpecialKind::Value, multiplicity: 0 }));
+        found.extend(met.into_iter().map(|point| Found { point, kind: SpecialKind::Value, multiplicity: 1 }));
         found.sort_by(|a, b| a.point.s.total_cmp(&b.point.s));
     }
-    found
+    Ok(found)
 }
 
 /// Bifurcations between two points.
@@ -50,7 +53,7 @@ fn between<E: Equations>(
     b: &PointOf<E>,
     depth: usize,
     found: &mut Vec<Found<E>>,
-) {
+) -> Result<(), Failed> {
     let unstable = [a, b].map(|point| point.stability.section_index);
     let turns = a.along.t * b.along.t < 0.0;
     let index = [a, b].map(|point| point.stability.index);
@@ -63,18 +66,17 @@ fn between<E: Equations>(
             (true, Some(0)) => (SpecialKind::BranchPoint, 1),
             // Without a potential the sign of the determinant tells of an odd number.
             (false, None) if sign_changes(a, b) => (SpecialKind::BranchPoint, 1),
-            (false, None | Some(0)) => return,
+            (false, None | Some(0)) => return Ok(()),
             (_, Some(change)) => (SpecialKind::BranchPoint, change.unsigned_abs()),
         }
     };
     // Several in one interval are told apart by halves of it.
     let several = depth < DEEPEST && turns && (unstable[0] != unstable[1] || multiplicity > 1);
     if several && let Some(middle) = at(equations, a, b, 0.5 * (b.s - a.s)) {
-        between(equations, a, &middle, depth + 1, found);
-        between(equations, &middle, b, depth + 1, found);
-        return;
+        between(equations, a, &middle, depth + 1, found)?;
+        return between(equations, &middle, b, depth + 1, found);
     }
-    let Some(point) = located(equations, a, b, kind, turns) else { return };
+    let point = located(equations, a, b, kind, turns).ok_or(Failed::Jumped)?;
     // Those that are not at the same place.
     let aside = ASIDE * (b.s - a.s);
     let right = (multiplicity > 1 && depth < DEEPEST && point.s + aside < b.s)
@@ -87,9 +89,7 @@ fn between<E: Equations>(
     let multiplicity =
         right.as_ref().map_or(multiplicity, |right| changed(&a.stability, &right.stability).max(1));
     found.push(Found { point, kind, multiplicity });
-    if let Some(right) = right {
-        between(equations, &right, b, depth + 1, found);
-    }
+    right.map_or(Ok(()), |right| between(equations, &right, b, depth + 1, found))
 }
 
 /// Whether the determinant has another sign, where it is known.
@@ -108,28 +108,61 @@ pub fn at<E: Equations>(
     b: &PointOf<E>,
     length: f64,
 ) -> Option<PointOf<E>> {
-    tried(equations, a, b, length).ok()
+    let across = if length <= 0.5 * (b.s - a.s) { &a.along } else { &b.along };
+    at_across(equations, a, b, length, across)
 }
 
-fn tried<E: Equations>(
+/// The same, in the plane across a direction.
+fn at_across<E: Equations>(
     equations: &mut E,
     a: &PointOf<E>,
     b: &PointOf<E>,
     length: f64,
-) -> Result<PointOf<E>, Failed> {
+    across: &DirectionOf<E>,
+) -> Option<PointOf<E>> {
     let whole = b.s - a.s;
     // From the nearer end, along the tangent that turns from one to the other.
     let (from, to, step) = if length <= 0.5 * whole { (a, b, length) } else { (b, a, length - whole) };
-    let turning = if equations.on_one_mesh(&a.x, &b.x) { 0.5 * step * step.abs() / whole } else { 0.0 };
+    let mut point = stepped_along(equations, (from, to), (step, whole), across, a)?.0;
+    point.s = a.s + length;
+    Some(point)
+}
+
+/// The point near a place that is measured along a direction, in a plane across it, from one of two whose places are known; from the
+/// first if the other's is not.
+fn in_plane<E: Equations>(
+    equations: &mut E,
+    (low, high): (&PointOf<E>, &PointOf<E>),
+    place: f64,
+    across: &DirectionOf<E>,
+    from_low: bool,
+) -> Option<PointOf<E>> {
+    let nearer_low = from_low || (place - low.s).abs() <= (high.s - place).abs();
+    let (from, to) = if nearer_low { (low, high) } else { (high, low) };
+    let step = (place - from.s) / dot(equations, across, &from.along);
+    let (mut point, moved) = stepped_along(equations, (from, to), (step, high.s - low.s), across, low)?;
+    point.s = from.s + moved;
+    Some(point)
+}
+
+/// A step from one of two points, along the tangent that turns to that at the other, corrected across a direction: the point, and how
+/// far it is along that direction.
+fn stepped_along<E: Equations>(
+    equations: &mut E,
+    (from, to): (&PointOf<E>, &PointOf<E>),
+    (step, whole): (f64, f64),
+    across: &DirectionOf<E>,
+    sense: &PointOf<E>,
+) -> Option<(PointOf<E>, f64)> {
+    let turning = if equations.on_one_mesh(&from.x, &to.x) { 0.5 * step * step.abs() / whole } else { 0.0 };
     let parts = [(step - turning, &from.along.x), (turning, &to.along.x)];
     let change = equations.sum(if turning == 0.0 { &parts[..1] } else { &parts });
     let x = equations.moved(&from.x, &change, 1.0);
-    let t = from.t + (step - turning) * from.along.t + turning * to.along.t;
+    let ahead = (step - turning) * from.along.t + turning * to.along.t;
+    let moved = dot(equations, across, &Direction { x: change, t: ahead });
     equations.expect_motions(Some(from.stability.free_motions));
-    let guess = Guess { x, t, across: Some(&from.along), sense: Some(&a.along) };
-    let mut point = corrected(equations, guess, 1e-11, true)?.point;
-    point.s = a.s + length;
-    Ok(point)
+    let guess = Guess { x, t: from.t + ahead, across: Some(across), sense: Some(&sense.along) };
+    Some((corrected(equations, guess, 1e-11, true).ok()?.point, moved))
 }
 
 /// The point between at this value of the parameter.
@@ -194,61 +227,95 @@ fn located<E: Equations>(
     };
     let index = |point: &PointOf<E>| point.stability.index.unwrap_or(0);
     let (mut low, mut high) = (a.clone(), b.clone());
+    // Places are measured along the tangent at a, at right angles to which all points are corrected: b's is not known exactly.
+    high.s = a.s + 0.5 * (1.0 + dot(equations, &a.along, &b.along)) * (b.s - a.s);
+    let most = high.s;
     let mut tried: Vec<PointOf<E>> = Vec::new();
     let mut lengths = [f64::INFINITY; 2];
+    let mut spread = SPREAD.min(0.1 * (b.s - a.s));
     for _ in 0..MOST {
         let length = high.s - low.s;
         let multiplicity = index(&low).abs_diff(index(&high)).max(1);
         let value = |point: &PointOf<E>| (point.s, function(point, multiplicity));
-        let mut place = low.s + length * value(&low).1 / (value(&low).1 - value(&high).1);
-        if let Some([one, two, three]) = tried.last_chunk() {
-            let (there, error) = root(&[value(one), value(two), value(three)]);
-            // The index may be late by rounding.
-            let inside = low.s - NEAREST < there && there < high.s + NEAREST;
-            if inside && error < EXACT || length < NEAREST {
-                return Some(between_two(equations, two, three, if inside { there } else { three.s }));
-            }
-            place = there;
+        // By the last values near the root; the first time by those at the ends.
+        let mut known: Vec<(f64, f64)> = tried.iter().rev().take(MEMORY).map(&value).collect();
+        if known.len() < 2 {
+            known = vec![value(&low), value(&high)];
         }
-        // By halves where the interval does not shrink so fast.
-        let inside = low.s < place && place < high.s;
-        if !inside || length > 0.5 * lengths[0] {
-            place = low.s + 0.5 * length;
+        let (place, error) = root(&known);
+        let inside = low.s - NEAREST < place && place < high.s + NEAREST;
+        if tried.len() >= MEMORY && inside && error < EXACT {
+            let mut nearest: Vec<&PointOf<E>> = tried.iter().rev().take(MEMORY).collect();
+            nearest.sort_by(|p, q| (p.s - place).abs().total_cmp(&(q.s - place).abs()));
+            return Some(between_two(equations, nearest[1], nearest[0], place, &a.along));
         }
+        if length < NEAREST {
+            return tried.pop();
+        }
+        // Around the root, not at it: there the equations are singular, and another branch is as near.
+        let near = tried.iter().filter(|point| (point.s - place).abs() < 2.0 * spread).count();
+        if near >= MEMORY {
+            spread *= 0.4;
+        }
+        let mut next = place + [0.5, -0.5, 1.0, -1.0, 1.5][near % MEMORY] * spread;
+        // By halves where the interval does not shrink so fast, and is not small yet.
+        let inside = low.s < next && next < high.s;
+        let slow = length > 8.0 * spread && length > 0.5 * lengths[0];
+        if slow || !inside && length > 4.0 * spread {
+            next = 0.5 * (low.s + high.s);
+        }
+        let next = next.clamp(low.s - spread, high.s + spread).clamp(a.s, most);
         lengths = [lengths[1], length];
-        let found =
-            at(equations, &low, &high, place - low.s).or_else(|| at(equations, &low, &high, 0.5 * length));
-        let Some(point) = found else { break };
+        let aside = [next, next - 0.3 * spread, next + 0.3 * spread];
+        let point = aside
+            .into_iter()
+            .find_map(|s| in_plane(equations, (&low, &high), s, &a.along, tried.is_empty()))?;
         if before(&point) {
-            low = point.clone()
-        } else {
-            high = point.clone()
+            if point.s > low.s {
+                low = point.clone()
+            }
+        } else if point.s < high.s {
+            high = point.clone();
         }
         tried.push(point);
     }
-    tried.pop()
+    None
 }
 
-/// The root of a function by inverse quadratic interpolation of three values, and an estimate of its error.
-fn root(values: &[(f64, f64); 3]) -> (f64, f64) {
-    let [(a, fa), (b, fb), (c, fc)] = *values;
-    let secant = c - fc * (c - b) / (fc - fb);
-    let quadratic = a * fb * fc / ((fa - fb) * (fa - fc))
-        + b * fa * fc / ((fb - fa) * (fb - fc))
-        + c * fa * fb / ((fc - fa) * (fc - fb));
-    let distances = [a, b, c].map(|place| (place - quadratic).abs());
-    // Of the order of the distances' product, and of what the last value changes times the last distance.
-    let error = distances.iter().product::<f64>().max((quadratic - secant).abs() * distances[2]);
-    (quadratic, error)
+/// Values by which a root is interpolated, and how far around it they are taken.
+const MEMORY: usize = 5;
+const SPREAD: f64 = 1e-3;
+
+/// The root of a function by inverse interpolation of its values, and an estimate of its error: by how much the last value counts.
+fn root(values: &[(f64, f64)]) -> (f64, f64) {
+    let interpolated = |values: &[(f64, f64)]| -> f64 {
+        (0..values.len())
+            .map(|i| {
+                let others = (0..values.len()).filter(|k| *k != i);
+                values[i].0 * others.map(|k| values[k].1 / (values[k].1 - values[i].1)).product::<f64>()
+            })
+            .sum()
+    };
+    let place = interpolated(values);
+    (place, (place - interpolated(&values[..values.len() - 1])).abs())
 }
 
-/// The point at `s` near two others, by their tangents; it is not corrected.
-fn between_two<E: Equations>(equations: &mut E, a: &PointOf<E>, b: &PointOf<E>, s: f64) -> PointOf<E> {
+/// The point near two others at a place measured along a direction, by their tangents; it is not corrected.
+fn between_two<E: Equations>(
+    equations: &mut E,
+    a: &PointOf<E>,
+    b: &PointOf<E>,
+    place: f64,
+    across: &DirectionOf<E>,
+) -> PointOf<E> {
     let whole = b.s - a.s;
-    let step = s - b.s;
+    let step = place - b.s;
+    // What the place changes by along the tangents.
+    let [rate_a, rate_b] = [a, b].map(|point| 1.0 / dot(equations, across, &point.along));
     // From b, along the tangent that turns to that at a.
     let turning = -0.5 * step * step / whole;
-    let change = equations.sum(&[(step - turning, &b.along.x), (turning, &a.along.x)]);
+    let parts = [((step - turning) * rate_b, &b.along.x), (turning * rate_a, &a.along.x)];
+    let change = equations.sum(&parts);
     let mut point = b.clone();
     point.x = equations.moved(&b.x, &change, 1.0);
     let y = step / whole;
@@ -260,14 +327,14 @@ fn between_two<E: Equations>(equations: &mut E, a: &PointOf<E>, b: &PointOf<E>, 
         },
     );
     // Hermite's cubic.
-    let [from, to] = [b, a].map(|point| whole * point.along.t);
+    let [from, to] = [(b, rate_b), (a, rate_a)].map(|(point, rate)| whole * rate * point.along.t);
     let (rise, bend) = (a.t - b.t + from, to - from);
     point.t = b.t + y * (from + y * (3.0 * rise + bend + y * (2.0 * rise + bend)));
-    point.s = s;
+    point.s = place;
     point
 }
 
 /// Estimate of an error of a search that is small enough.
-const EXACT: f64 = 1e-12;
+const EXACT: f64 = 2e-12;
 /// An interval that is no longer divided.
 const NEAREST: f64 = 1e-7;

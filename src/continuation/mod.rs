@@ -10,6 +10,7 @@
 //! | `predict`, `correct` | a step along a branch |
 //! | `branch` | a branch, as far as it is asked for |
 //! | `locate` | special points between two points of a branch |
+//! | `locus` | a special point as a second parameter varies |
 //! | `switch`, `diagram` | what branches off, and all branches that hang together |
 
 mod branch;
@@ -18,6 +19,7 @@ mod diagram;
 mod equations;
 mod held;
 mod locate;
+mod locus;
 mod natural;
 mod predict;
 mod switch;
@@ -28,4 +30,5 @@ pub use diagram::{Diagram, diagram};
 pub use equations::{Direction, Equations, Failed, Stability};
 pub use held::{Held, HeldState, Spent, Work};
 pub use locate::at as between;
+pub use locus::{Locus, Plane, locus};
 pub use natural::{Natural, NaturalFamily};

@@ -5,10 +5,11 @@ use std::sync::Arc;
 use nalgebra::{Matrix3, Vector3};
 
 use super::equations::{Direction, Equations, Failed, Stability};
+use super::locus::Plane;
 use crate::InvalidInput;
 use crate::boundary::Determinant;
 use crate::equilibrium::{Balance, balance};
-use crate::section::{RibbonLaw, RibbonSpec, Station};
+use crate::section::{RibbonLaw, RibbonSpec, Station, corner_weights};
 
 /// Ribbons between ribbons: those of a parameter from 0 to 1, or of two.
 #[derive(Clone, Debug)]
@@ -18,12 +19,15 @@ pub struct NaturalFamily {
 }
 
 impl NaturalFamily {
-    /// The family between two ribbons that differ in amplitudes of growth and dimensions alone.
+    /// The family between two ribbons, or four, that differ in amplitudes of growth and dimensions alone.
     ///
     /// # Errors
     /// If anything else differs, or they vary along their length.
-    pub fn new(corners: [RibbonSpec; 2]) -> Result<Self, InvalidInput> {
-        if !corners[0].is_like(&corners[1]) {
+    pub fn new(corners: Vec<RibbonSpec>) -> Result<Self, InvalidInput> {
+        if !matches!(corners.len(), 2 | 4) {
+            return Err(InvalidInput::new("corners", corners.len(), "two ribbons, or four"));
+        }
+        if !corners.iter().all(|other| other.is_like(&corners[0])) {
             let expected = "ribbons that differ in amplitudes of growth and dimensions alone";
             return Err(InvalidInput::new("corners", "different kinds", expected));
         }
@@ -36,17 +40,20 @@ impl NaturalFamily {
                 ));
             }
         }
-        let [a, b] = &corners;
-        let linear = a.eta == b.eta && a.width == b.width && a.thickness == b.thickness;
-        Ok(Self { corners: corners.into(), linear })
+        let same = |a: &RibbonSpec, b: &RibbonSpec| {
+            a.eta == b.eta && a.width == b.width && a.thickness == b.thickness
+        };
+        let linear = corners.iter().all(|other| same(other, &corners[0]));
+        Ok(Self { corners, linear })
     }
 
-    /// The section at a parameter.
+    /// The section at these parameters, of which the second counts if there are two.
     ///
     /// # Errors
     /// Where it is refused.
-    pub fn station(&self, t: f64) -> Result<Arc<Station>, InvalidInput> {
-        let others: Vec<_> = self.corners[1..].iter().map(|corner| (t, corner)).collect();
+    pub fn station(&self, at: [f64; 2]) -> Result<Arc<Station>, InvalidInput> {
+        let weights = corner_weights(self.corners.len(), at);
+        let others: Vec<_> = weights.into_iter().zip(&self.corners[1..]).collect();
         RibbonLaw::new(RibbonSpec::blend(&self.corners[0], &others)?)?.station(0.0)
     }
 }
@@ -54,6 +61,8 @@ impl NaturalFamily {
 /// The equations of a free section.
 pub struct Natural {
     family: NaturalFamily,
+    other: f64,
+    exchanged: bool,
     at: Option<(f64, Arc<Station>)>,
     residual: [f64; 2],
     /// Derivatives of the residual in `k`, `q`, `t`.
@@ -71,6 +80,8 @@ impl Natural {
     pub fn new(family: NaturalFamily) -> Self {
         Self {
             family,
+            other: 0.0,
+            exchanged: false,
             at: None,
             residual: [0.0; 2],
             rows: [Vector3::zeros(); 2],
@@ -87,11 +98,15 @@ impl Natural {
         match &self.at {
             Some((known, station)) if *known == t => Ok(Arc::clone(station)),
             _ => {
-                let station = self.family.station(t)?;
+                let station = self.beside(t)?;
                 self.at = Some((t, Arc::clone(&station)));
                 Ok(station)
             }
         }
+    }
+
+    fn beside(&self, t: f64) -> Result<Arc<Station>, InvalidInput> {
+        self.family.station(if self.exchanged { [self.other, t] } else { [t, self.other] })
     }
 
     fn bordered(&self) -> Matrix3<f64> {
@@ -100,6 +115,12 @@ impl Natural {
 
     fn balance(&mut self, x: &[f64; 2], t: f64) -> Result<Balance, Failed> {
         Ok(balance(self.station(t)?.section(), x[0], x[1]))
+    }
+}
+
+impl Plane for Natural {
+    fn hold(&mut self, other: f64, exchanged: bool) {
+        (self.other, self.exchanged, self.at) = (other, exchanged, None);
     }
 }
 
@@ -135,7 +156,7 @@ impl Equations for Natural {
         across: Option<&Direction<[f64; 2]>>,
     ) -> Result<(), Failed> {
         let step = DIFFERENCE[usize::from(self.family.linear)];
-        let beside = self.family.station(t + step)?;
+        let beside = self.beside(t + step)?;
         let beside = balance(beside.section(), x[0], x[1]).gradient;
         let here = self.balance(x, t)?;
         let [kk, kq, qq] = here.hessian;
@@ -189,6 +210,10 @@ impl Equations for Natural {
             free_motions: 0,
             determinant,
         }
+    }
+
+    fn coordinates(&mut self, x: &[f64; 2], _: f64) -> Vec<f64> {
+        x.to_vec()
     }
 
     fn invariants(&mut self, x: &[f64; 2], _: f64) -> Vec<f64> {

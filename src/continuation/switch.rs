@@ -140,6 +140,7 @@ pub fn stepped<E: Equations>(
         equations.expect_motions(None);
         if let Ok(done) = corrected(equations, guess, limits.tolerance, true)
             && done.first < 0.5 * step
+            && (0.0..=1.0).contains(&done.point.t)
         {
             let mut point = done.point;
             point.s = step;

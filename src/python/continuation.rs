@@ -12,8 +12,8 @@ use super::section::SectionLaw;
 use crate::InvalidInput;
 use crate::boundary::{Family, Mesh, Solution, energies};
 use crate::continuation::{
-    Branch, Diagram, Ended, Equations, Failed, Held, HeldState, Limits, Natural, NaturalFamily, Point, begin,
-    between, diagram,
+    Branch, Diagram, Ended, Equations, Failed, Held, HeldState, Limits, Natural, NaturalFamily, Point,
+    SpecialKind, begin, between, diagram, locus,
 };
 use crate::equilibrium::natural_shapes;
 use crate::frame::{Pose, helix};
@@ -24,6 +24,16 @@ type NaturalPoint = Point<[f64; 2], [f64; 2]>;
 
 /// Kind, branch, place among its points, parameter, multiplicity.
 type SpecialPoint = (String, usize, usize, f64, usize);
+
+/// Both parameters (m, 2), and how the curve ended.
+type Curve<'py> = (Bound<'py, PyArray2<f64>>, (&'static str, &'static str));
+
+/// Problems or laws at the corners of the plane of two parameters.
+#[derive(FromPyObject)]
+enum Corners<'py> {
+    Problems(Vec<Bound<'py, BoundaryProblem>>),
+    Laws(Vec<Bound<'py, SectionLaw>>),
+}
 
 /// What is told of a point of a branch.
 struct Row {
@@ -39,7 +49,7 @@ struct Row {
 
 /// The points of a branch and the equations they solve.
 enum Points {
-    Natural(Mutex<Natural>, Vec<NaturalPoint>),
+    Natural(Arc<Mutex<Natural>>, Vec<NaturalPoint>),
     Held(Arc<Mutex<Held>>, Vec<HeldPoint>),
 }
 
@@ -167,6 +177,48 @@ impl TracedBranch {
         }
     }
 
+    /// The special point at a place of the branch as another parameter varies over a span: both parameters (m, 2), and how
+    /// the curve ended. The corners are the problems, or laws, at both ends of both spans.
+    #[expect(clippy::too_many_arguments, reason = "what is asked of a locus")]
+    fn locus<'py>(
+        &self,
+        py: Python<'py>,
+        place: usize,
+        kind: &str,
+        corners: Corners<'_>,
+        other_span: [f64; 2],
+        other_value: f64,
+        max_steps: usize,
+        tol: f64,
+    ) -> PyResult<Curve<'py>> {
+        let kinds = [SpecialKind::Fold, SpecialKind::BranchPoint, SpecialKind::SectionInstability];
+        let kind = kinds.into_iter().find(|one| one.name() == kind);
+        let kind = kind.ok_or_else(|| InvalidInput::new("kind", "unknown", "a name that the core gives"))?;
+        let u = (other_value - other_span[0]) / (other_span[1] - other_span[0]);
+        let limits = Limits { tolerance: (0.1 * tol).max(1e-14), ..limits(self.span, &[], max_steps) };
+        let (places, ended) = match (&self.points, corners) {
+            (Points::Natural(_, points), Corners::Laws(laws)) => {
+                let specs = laws.iter().map(|law| law.get().law().spec().clone()).collect();
+                let mut equations = Natural::new(NaturalFamily::new(specs)?);
+                let point = points.get(place).ok_or_else(|| self.no_point(place))?;
+                let found = py.detach(|| locus(&mut equations, point, u, kind, &limits));
+                (found.places, found.ended)
+            }
+            (Points::Held(_, points), Corners::Problems(problems)) => {
+                let family = Family::new(problems.iter().map(|problem| problem.get().problem()).collect())?;
+                let point = points.get(place).ok_or_else(|| self.no_point(place))?;
+                let mut equations = Held::new(family, u, self.degree, tol);
+                let found = py.detach(|| locus(&mut equations, point, u, kind, &limits));
+                (found.places, found.ended)
+            }
+            _ => return Err(InvalidInput::new("corners", "of another kind", "those of the branch").into()),
+        };
+        py.check_signals()?;
+        let spans = [self.span, other_span];
+        let table = Array2::from_shape_fn((places.len(), 2), |(i, c)| parameter(spans[c], places[i][c]));
+        Ok((table.into_pyarray(py), (ended[0].name(), ended[1].name())))
+    }
+
     /// The equilibrium at a fraction of the way from a point to the next: its parameter, mean strains, and solution.
     fn between<'py>(
         &self,
@@ -179,13 +231,16 @@ impl TracedBranch {
             Points::Natural(equations, points) => {
                 let [a, b] = pair(points, i).ok_or_else(|| self.no_point(i))?;
                 let mut equations = lock(equations);
-                let point = between(&mut *equations, a, b, fraction * (b.s - a.s)).ok_or_else(none)?;
+                let found = between(&mut *equations, a, b, fraction * (b.s - a.s));
+                // Next to a special point the point itself.
+                let point = found.or_else(|| next_to(fraction, a, b)).ok_or_else(none)?;
                 Ok::<_, InvalidInput>((natural_row(&mut equations, &point, self.span)?, None))
             }
             Points::Held(equations, points) => {
                 let [a, b] = pair(points, i).ok_or_else(|| self.no_point(i))?;
                 let mut equations = lock(equations);
-                let point = between(&mut *equations, a, b, fraction * (b.s - a.s)).ok_or_else(none)?;
+                let found = between(&mut *equations, a, b, fraction * (b.s - a.s));
+                let point = found.or_else(|| next_to(fraction, a, b)).ok_or_else(none)?;
                 let row = held_row(&mut equations, &point, self.span, self.degree)?;
                 Ok((row, Some(solution(&mut equations, &point, self.degree)?)))
             }
@@ -216,6 +271,15 @@ impl TracedBranch {
 /// What a panic elsewhere left behind is whole: each method begins anew.
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The end of a piece of a branch that a fraction of it is next to.
+fn next_to<S: Clone, C: Clone>(fraction: f64, a: &Point<S, C>, b: &Point<S, C>) -> Option<Point<S, C>> {
+    match fraction {
+        ..1e-3 => Some(a.clone()),
+        0.999.. => Some(b.clone()),
+        _ => None,
+    }
 }
 
 fn pair<T>(points: &[T], i: usize) -> Option<[&T; 2]> {
@@ -406,7 +470,7 @@ pub fn trace_natural(
     depth: usize,
     max_steps: usize,
 ) -> PyResult<Trace> {
-    let family = NaturalFamily::new([laws.0.law().spec().clone(), laws.1.law().spec().clone()])?;
+    let family = NaturalFamily::new(vec![laws.0.law().spec().clone(), laws.1.law().spec().clone()])?;
     // Curvatures over the thickness ratio may be large.
     let limits = Limits { longest: 10.0, ..limits(span, &values, max_steps) };
     let (branches, special) = py.detach(|| {
@@ -438,7 +502,7 @@ pub fn trace_natural(
                 })
             };
             let mirrored = branch.mirrored || branch.points.iter().any(image);
-            let points = Points::Natural(Mutex::new(Natural::new(family.clone())), branch.points);
+            let points = Points::Natural(Arc::new(Mutex::new(Natural::new(family.clone()))), branch.points);
             Ok::<_, InvalidInput>(TracedBranch {
                 span,
                 degree: 0,

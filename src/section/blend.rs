@@ -9,6 +9,13 @@ pub fn blend(first: f64, others: impl Iterator<Item = (f64, f64)>) -> f64 {
     first + others.map(|(weight, other)| weight * (other - first)).sum::<f64>()
 }
 
+/// Weights of all corners but the first of a range of one parameter, (0), (1), or of a rectangle of two, (0, 0), (1, 0), (0, 1),
+/// (1, 1).
+#[must_use]
+pub fn corner_weights(corners: usize, [t, u]: [f64; 2]) -> Vec<f64> {
+    if corners == 2 { vec![t] } else { vec![t * (1.0 - u), u * (1.0 - t), t * u] }
+}
+
 impl Amplitude {
     /// The amplitude between amplitudes, all numbers or all functions of one range.
     ///

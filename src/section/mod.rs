@@ -33,7 +33,7 @@ mod ribbon;
 mod second_order;
 pub mod sigma;
 
-pub use blend::blend;
+pub use blend::{blend, corner_weights};
 pub use closed::ClosedForm;
 pub use deflection::{Deflection, InPlane};
 pub use general::GeneralLaw;

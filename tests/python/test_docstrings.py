@@ -17,6 +17,7 @@ WITH_EXAMPLES = {
     "frame",
     "growth",
     "law",
+    "locus",
     "measured",
     "parameter",
     "phasediagram",

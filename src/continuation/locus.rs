@@ -1,0 +1,179 @@
+//! A fold, a branch point or a section instability followed as a second parameter varies: a curve in the plane of both.
+//!
+//! At each value of the second parameter the branch through the special point is found anew, a little to both sides of it, and the
+//! point located between. Where the curve is steep the two parameters change places.
+
+use super::branch::{Ended, Limits, SpecialKind};
+use super::correct::{DirectionOf, Guess, PointOf, corrected};
+use super::equations::{Direction, Equations, Failed};
+use super::locate::{Found, special_points};
+
+/// Equations of two parameters, one of which is followed.
+pub trait Plane: Equations {
+    /// Sets the parameter that is not followed; the two are exchanged or not.
+    fn hold(&mut self, other: f64, exchanged: bool);
+}
+
+/// A curve of special points.
+pub struct Locus<S> {
+    /// Both parameters, from 0 to 1.
+    pub places: Vec<[f64; 2]>,
+    /// The states.
+    pub states: Vec<S>,
+    /// How it ended: its beginning and its end.
+    pub ended: [Ended; 2],
+}
+
+/// Half the piece of a branch in which a special point is looked for, and how often it is doubled.
+const REACH: f64 = 0.02;
+const DOUBLINGS: usize = 4;
+/// The part of it in which it is to be.
+const INSIDE: f64 = 0.7;
+/// The first step of the second parameter, the longest, and one that is too short.
+const FIRST: f64 = 1e-3;
+const LONGEST: f64 = 0.05;
+const SHORTEST: f64 = 1e-5;
+/// Error of a predicted place that steps are made for.
+const ERROR: f64 = 5e-3;
+/// Steeper than this the parameters change places.
+const STEEP: f64 = 2.0;
+
+/// Where the curve is: the special point, and the two parameters in their own order.
+struct Here<E: Equations> {
+    point: PointOf<E>,
+    place: [f64; 2],
+}
+
+/// Follows the special point both ways.
+pub fn locus<E: Plane>(
+    equations: &mut E,
+    start: &PointOf<E>,
+    other: f64,
+    kind: SpecialKind,
+    limits: &Limits,
+) -> Locus<E::State> {
+    let first = [start.t, other];
+    let (ahead, end) = walked(equations, start, first, kind, 1.0, limits);
+    let (back, begin) = walked(equations, start, first, kind, -1.0, limits);
+    let mut locus = Locus { places: Vec::new(), states: Vec::new(), ended: [begin, end] };
+    let own = Here::<E> { point: start.clone(), place: first };
+    for here in back.into_iter().rev().chain([own]).chain(ahead) {
+        locus.places.push(here.place);
+        locus.states.push(here.point.x);
+    }
+    locus
+}
+
+fn walked<E: Plane>(
+    equations: &mut E,
+    start: &PointOf<E>,
+    place: [f64; 2],
+    kind: SpecialKind,
+    sense: f64,
+    limits: &Limits,
+) -> (Vec<Here<E>>, Ended) {
+    let mut found: Vec<Here<E>> = Vec::new();
+    let mut here = Here::<E> { point: start.clone(), place };
+    // Which parameter is held, and how fast the other changes with it.
+    let (mut held, mut slope, mut sense) = (1_usize, 0.0_f64, sense);
+    let mut step = FIRST;
+    for _ in 0..limits.steps {
+        if limits.interrupted.is_some_and(|asks| asks()) {
+            return (found, Ended::Failed(Failed::Interrupted));
+        }
+        let now = here.place[held];
+        if now <= 0.0 && sense < 0.0 || now >= 1.0 && sense > 0.0 {
+            return (found, Ended::Span);
+        }
+        let next = (now + sense * step).clamp(0.0, 1.0);
+        let moved = next - now;
+        let expected = here.place[1 - held] + slope * moved;
+        equations.hold(next, held == 0);
+        let Some(point) = near(equations, &here.point, slope * moved, kind, limits) else {
+            step *= 0.5;
+            if step < SHORTEST {
+                return (found, Ended::Failed(Failed::Jumped));
+            }
+            continue;
+        };
+        let mut place = [point.t; 2];
+        place[held] = next;
+        place[1 - held] = point.t;
+        let error = (point.t - expected).abs();
+        if error > 4.0 * ERROR && step > 16.0 * SHORTEST {
+            step *= 0.5;
+            continue;
+        }
+        slope = (point.t - here.place[1 - held]) / moved;
+        step = (step * (ERROR / error.max(1e-6)).sqrt().clamp(0.5, 2.0)).min(LONGEST);
+        here = Here { point, place };
+        let outside = !(0.0..=1.0).contains(&here.place[1 - held]);
+        found.push(Here { point: here.point.clone(), place });
+        if outside {
+            return (found, Ended::Span);
+        }
+        if slope.abs() > STEEP
+            && let Some(along) = exchanged(equations, &here, held, kind)
+        {
+            sense *= slope.signum();
+            held = 1 - held;
+            slope = 1.0 / slope;
+            here.point.along = along;
+            here.point.t = here.place[1 - held];
+        }
+    }
+    (found, Ended::Steps)
+}
+
+/// The special point near another, where the followed parameter is expected to be by `shift` greater.
+fn near<E: Plane>(
+    equations: &mut E,
+    last: &PointOf<E>,
+    shift: f64,
+    kind: SpecialKind,
+    limits: &Limits,
+) -> Option<PointOf<E>> {
+    let mut reach = REACH;
+    for _ in 0..=DOUBLINGS {
+        let sides = [-reach, reach].map(|s| {
+            let x = equations.moved(&last.x, &last.along.x, s);
+            let t = last.t + shift + s * last.along.t;
+            equations.expect_motions(Some(last.stability.free_motions));
+            let guess = Guess { x, t, across: Some(&last.along), sense: Some(&last.along) };
+            let mut point = corrected(equations, guess, limits.tolerance, true).ok()?.point;
+            point.s = s;
+            Some(point)
+        });
+        let [Some(before), Some(after)] = sides else { return None };
+        let within = Limits { values: Vec::new(), ..limits.clone() };
+        let found = special_points(equations, &before, &after, &within).unwrap_or_default();
+        // Near an end of the piece that end is nearly singular, and may be on another branch.
+        let inside = |special: &Found<E>| special.kind == kind && special.point.s.abs() < INSIDE * reach;
+        if let Some(special) = found.into_iter().find(inside) {
+            return Some(special.point);
+        }
+        reach *= 2.0;
+    }
+    None
+}
+
+/// The tangent of the branch that the other parameter gives through the special point.
+fn exchanged<E: Plane>(
+    equations: &mut E,
+    here: &Here<E>,
+    held: usize,
+    kind: SpecialKind,
+) -> Option<DirectionOf<E>> {
+    if kind == SpecialKind::Fold {
+        // It is a fold either way.
+        return Some(Direction { x: here.point.along.x.clone(), t: 0.0 });
+    }
+    // A little beside, where the equations are regular.
+    equations.hold(here.place[1 - held] + BESIDE, held == 1);
+    equations.linearise(&here.point.x, here.place[held], None).ok()?;
+    let line = equations.line();
+    Some(super::equations::unit(equations, &line))
+}
+
+/// How far beside.
+const BESIDE: f64 = 1e-4;

@@ -30,6 +30,7 @@ from .state import State
 if TYPE_CHECKING:
     from . import analytic
     from .continuation import trace
+    from .deflation import find_states
     from .diagram import Diagram, load_diagram
     from .parameter import parameters
     from .phasediagram import PhaseDiagram, load_phase_diagram, phase_diagram
@@ -60,6 +61,7 @@ __all__ = [
     "Sliding",
     "State",
     "analytic",
+    "find_states",
     "growth",
     "integrate_frame",
     "load_diagram",
@@ -77,6 +79,7 @@ LATER = {
     "Diagram": ".diagram",
     "PhaseDiagram": ".phasediagram",
     "load_diagram": ".diagram",
+    "find_states": ".deflation",
     "load_phase_diagram": ".phasediagram",
     "parameters": ".parameter",
     "phase_diagram": ".phasediagram",

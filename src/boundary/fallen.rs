@@ -56,7 +56,7 @@ pub fn fallen(
 
 /// A disturbance: half waves, and signs, in bending and in twist, and its size in radians over the ribbon.
 #[derive(Clone, Copy)]
-struct Disturbance {
+pub struct Disturbance {
     /// Whether it is one of the straight, twisted ribbon, in place of the state.
     of_straight: bool,
     bend: f64,
@@ -72,9 +72,11 @@ const fn bow(bend: f64, twist: f64, size: f64) -> Disturbance {
     Disturbance { of_straight: true, bend, twist, size }
 }
 
-const BOWS: [Disturbance; 3] = [bow(2.0, 0.0, 6.0), bow(0.5, 0.0, 4.0), bow(1.0, 1.0, 4.0)];
+/// Of the straight ribbon.
+pub const BOWS: [Disturbance; 3] = [bow(2.0, 0.0, 6.0), bow(0.5, 0.0, 4.0), bow(1.0, 1.0, 4.0)];
 
-const DISTURBANCES: [Disturbance; 8] = [
+/// Of a state.
+pub const DISTURBANCES: [Disturbance; 8] = [
     wave(0.5, 0.0),
     wave(1.0, 1.0),
     wave(1.0, -2.0),
@@ -86,7 +88,7 @@ const DISTURBANCES: [Disturbance; 8] = [
 ];
 
 /// The shape of the disturbed strains, from the start.
-fn disturbed(mesh: &Mesh, x: &Iterate, disturbance: &Disturbance) -> Result<Guess, InvalidInput> {
+pub fn disturbed(mesh: &Mesh, x: &Iterate, disturbance: &Disturbance) -> Result<Guess, InvalidInput> {
     let length = mesh.problem.length;
     let size = |waves: f64| waves.signum() * disturbance.size / length * f64::from(u8::from(waves != 0.0));
     let wave = |s: f64, waves: f64| size(waves) * (waves * PI * s / length).cos();

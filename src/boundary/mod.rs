@@ -19,6 +19,7 @@
 //! | `step`, `adapt` | dense output, errors and meshes |
 //! | `check` | an independent residual |
 //! | `stability`, `fallen` | the index under the end conditions, and what unstable states fall into |
+//! | `deflation` | several equilibria |
 //! | `solve`, `report`, `solution` | the whole, and what it gives |
 
 mod adapt;
@@ -26,6 +27,7 @@ mod arclength;
 mod chain;
 mod check;
 mod correct;
+mod deflation;
 mod dense;
 mod element;
 mod eliminated;
@@ -53,6 +55,7 @@ mod transfer;
 
 pub use adapt::{Defects, defects, refined, transferred};
 pub use correct::{Bordered, Line};
+pub use deflation::find;
 pub use dense::Determinant;
 pub use ends::{At, End, Hold};
 pub use family::Family;
@@ -65,6 +68,6 @@ pub use path::Path;
 pub use problem::{LineLoad, PointLoad, Problem};
 pub use report::{Report, Status};
 pub use solution::{Energies, SectionState, Solution, Wrench, energies};
-pub use solve::{DEGREE, Settings, goal};
+pub use solve::{DEGREE, Settings, Solved, goal};
 pub use step::Stepper;
 pub use system::{Failure, Residual, Sections, System, Targets};

@@ -61,6 +61,8 @@ fn between<E: Equations>(
         match (turns, change) {
             (true, None | Some(1 | -1)) => (SpecialKind::Fold, 1),
             (true, Some(0)) => (SpecialKind::BranchPoint, 1),
+            // Without a potential the sign of the determinant tells of an odd number.
+            (false, None) if sign_changes(a, b) => (SpecialKind::BranchPoint, 1),
             (false, None | Some(0)) => return,
             (_, Some(change)) => (SpecialKind::BranchPoint, change.unsigned_abs()),
         }
@@ -88,6 +90,12 @@ fn between<E: Equations>(
     if let Some(right) = right {
         between(equations, &right, b, depth + 1, found);
     }
+}
+
+/// Whether the determinant has another sign, where it is known.
+fn sign_changes<S, C>(a: &super::Point<S, C>, b: &super::Point<S, C>) -> bool {
+    let signs = a.stability.determinant.zip(b.stability.determinant);
+    signs.is_some_and(|(a, b)| a.sign * b.sign < 0.0)
 }
 
 /// How far beside a special point, of the interval it was found in, others are not told from it.
@@ -167,6 +175,8 @@ fn located<E: Equations>(
     let before = |point: &PointOf<E>| match kind {
         SpecialKind::SectionInstability => point.stability.section_index == start.section_index,
         _ if turns => point.along.t * a.along.t > 0.0,
+        // Without a potential the determinant decides alone.
+        _ if start.index.is_none() => !sign_changes(a, point),
         _ => point.stability.index == start.index,
     };
     let function = |point: &PointOf<E>, multiplicity: usize| match kind {

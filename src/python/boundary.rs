@@ -12,8 +12,8 @@ use super::section::{Along, SectionLaw};
 use super::{rows_from, strains_from};
 use crate::InvalidInput;
 use crate::boundary::{
-    At, DEGREE, End, Guess, Hold, Iterate, Law, LineLoad, PointLoad, Problem, Report, Rod, SectionState,
-    Settings, Solution, Status,
+    At, DEGREE, End, Guess, Hold, Iterate, Law, LineLoad, MAX_DEGREE, PointLoad, Problem, Report, Rod,
+    SectionState, Settings, Solution, Status,
 };
 use crate::section::{RibbonLaw, Strain};
 
@@ -142,19 +142,36 @@ impl BoundaryProblem {
         degree: Option<usize>,
         guess: Option<GuessArrays<'_>>,
     ) -> PyResult<BoundarySolution> {
-        let degree = degree.unwrap_or(DEGREE);
-        if !(1..=crate::boundary::MAX_DEGREE).contains(&degree) {
-            let expected = format!("a whole number from 1 to {}", crate::boundary::MAX_DEGREE);
-            return Err(InvalidInput::new("degree", degree, &expected).into());
-        }
+        let degree = checked_degree(degree)?;
         let guess = guess.map(|arrays| guess_from(&arrays)).transpose()?;
-        // A signal that Python's handler answers with an exception ends the solve; the exception is raised anew.
-        let interrupted = || Python::attach(|py| py.check_signals().is_err());
         let settings =
             Settings { tolerance: tol, degree, interrupted: Some(interrupted), ..Settings::default() };
         let problem = Arc::clone(&self.problem);
         let solution = py.detach(|| Solution::of(problem, &settings, guess.as_ref()))?;
         Ok(BoundarySolution { solution })
+    }
+
+    /// Several equilibria, at most so many, that differ in more than a reflection; what solves the problem from zero load first.
+    fn find(
+        &self,
+        py: Python<'_>,
+        tol: f64,
+        degree: Option<usize>,
+        most: usize,
+    ) -> PyResult<Vec<BoundarySolution>> {
+        let degree = checked_degree(degree)?;
+        let settings =
+            Settings { tolerance: tol, degree, interrupted: Some(interrupted), ..Settings::default() };
+        let problem = Arc::clone(&self.problem);
+        let solutions = py.detach(|| {
+            let found = crate::boundary::find(&problem, &settings, most)?;
+            let solution = |one: crate::boundary::Solved| {
+                Solution::from_parts(Arc::clone(&problem), degree, one.nodes, one.x, one.report)
+            };
+            found.into_iter().map(solution).collect::<Result<Vec<_>, InvalidInput>>()
+        })?;
+        py.check_signals()?;
+        Ok(solutions.into_iter().map(BoundarySolution::from).collect())
     }
 
     /// The solution that has these parts, as `BoundarySolution.parts` gave them.
@@ -355,6 +372,20 @@ impl BoundarySolution {
             report.norms.clone(),
         )
     }
+}
+
+/// A degree of the collocation, or the one that is best.
+pub fn checked_degree(degree: Option<usize>) -> Result<usize, InvalidInput> {
+    let degree = degree.unwrap_or(DEGREE);
+    if (1..=MAX_DEGREE).contains(&degree) {
+        return Ok(degree);
+    }
+    Err(InvalidInput::new("degree", degree, &format!("a whole number from 1 to {MAX_DEGREE}")))
+}
+
+/// A signal that Python's handler answers with an exception ends the work; the exception is raised anew.
+pub fn interrupted() -> bool {
+    Python::attach(|py| py.check_signals().is_err())
 }
 
 fn quaternion([w, i, j, k]: [f64; 4]) -> Quaternion<f64> {

@@ -7,10 +7,10 @@ use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-use super::boundary::{BoundaryProblem, BoundarySolution};
+use super::boundary::{BoundaryProblem, BoundarySolution, checked_degree, interrupted};
 use super::section::SectionLaw;
 use crate::InvalidInput;
-use crate::boundary::{DEGREE, Family, MAX_DEGREE, Mesh, Solution, energies};
+use crate::boundary::{Family, Mesh, Solution, energies};
 use crate::continuation::{
     Branch, Diagram, Ended, Equations, Failed, Held, HeldState, Limits, Natural, NaturalFamily, Point, begin,
     between, diagram,
@@ -316,11 +316,6 @@ fn specials<S, C>(branches: &[Branch<S, C>], span: [f64; 2]) -> (Vec<SpecialPoin
     (special, first)
 }
 
-/// A signal that Python's handler answers with an exception ends the work.
-fn interrupted() -> bool {
-    Python::attach(|py| py.check_signals().is_err())
-}
-
 fn limits(span: [f64; 2], values: &[f64], steps: usize) -> Limits {
     let mut values: Vec<f64> = values.iter().map(|value| (value - span[0]) / (span[1] - span[0])).collect();
     values.sort_by(f64::total_cmp);
@@ -350,11 +345,7 @@ pub fn trace(
     tol: f64,
     degree: Option<usize>,
 ) -> PyResult<Trace> {
-    let degree = degree.unwrap_or(DEGREE);
-    if !(1..=MAX_DEGREE).contains(&degree) {
-        let expected = format!("a whole number from 1 to {MAX_DEGREE}");
-        return Err(InvalidInput::new("degree", degree, &expected).into());
-    }
+    let degree = checked_degree(degree)?;
     let family = Family::new(vec![problems.0.problem(), problems.1.problem()])?;
     let solution = start.solution();
     let t = (start_value - span[0]) / (span[1] - span[0]);

@@ -12,6 +12,7 @@ MODULES = sorted(
 )
 WITH_EXAMPLES = {
     "continuation",
+    "deflation",
     "equilibrium",
     "errors",
     "frame",

@@ -1,0 +1,175 @@
+//! Several equilibria of one problem, by deflation.
+//!
+//! Newton's method for `M(x) F(x) = 0` with `M = prod_i (1/|x - x_i|^2 + 1)` does not converge to the solutions `x_i` that are known
+//! (Farrell, Birkisson & Funke 2015). Its step is the ordinary one times `1/(1 - g)`, with `g` the derivative of `ln M` along that.
+
+use std::sync::Arc;
+
+use super::fallen::{BOWS, DISTURBANCES, disturbed};
+use super::iterate::Iterate;
+use super::known::Known;
+use super::mesh::Mesh;
+use super::path::Path;
+use super::problem::Problem;
+use super::solve::{Settings, Solved, Spent, adapted, goal, solve};
+use super::system::{System, Targets};
+use crate::InvalidInput;
+
+/// Elements of the mesh on which equilibria are told apart.
+const ELEMENTS: f64 = 16.0;
+/// Steps that are too many, and the longest.
+const STEPS: usize = 60;
+const LONGEST: f64 = 2.0;
+/// A step that ends the search, and a distance at which two equilibria are one.
+const SHORT: f64 = 1e-7;
+const NEAR: f64 = 1e-3;
+/// Difference by which `ln M` is differentiated.
+const DIFFERENCE: f64 = 1e-6;
+/// Relative difference of energies and mean squares that mirror images may have.
+const ALIKE: f64 = 1e-7;
+
+/// Equilibria, at most so many, that differ in more than a reflection: first that of [`solve`], if there is one, then those that
+/// deflation finds from disturbances of all that are known.
+///
+/// # Errors
+/// Where a section is refused.
+pub fn find(problem: &Arc<Problem>, settings: &Settings, most: usize) -> Result<Vec<Solved>, InvalidInput> {
+    let nodes = problem.first_nodes(ELEMENTS, 0.0);
+    let mesh = Mesh::new(problem, nodes, settings.degree)?;
+    let goal = goal(problem);
+    let mut search =
+        Search { system: System::new(mesh.clone())?, goal, known: Vec::new(), found: Vec::new() };
+    let first = solve(problem, settings, None)?;
+    if first.report.status.is_solved() {
+        search.keep(settings, first)?;
+    }
+    let mut bases: Vec<Iterate> = Vec::new();
+    for known in [Known::Natural(0.0), Known::Straight(0.0), Known::Twisted(0.0)] {
+        bases.extend(Path::new(&mesh, &known).ok().map(|path| path.x));
+    }
+    let mut next = 0;
+    loop {
+        bases.extend(search.known[next..].iter().cloned());
+        next = search.known.len();
+        for base in std::mem::take(&mut bases) {
+            for disturbance in DISTURBANCES.iter().chain(&BOWS) {
+                if search.found.len() >= most || settings.interrupted.is_some_and(|asks| asks()) {
+                    return Ok(search.found);
+                }
+                let guess = disturbed(&mesh, &base, disturbance)?;
+                let Ok(path) = Path::new(&mesh, &Known::Given(&guess)) else { continue };
+                if let Some(x) = search.deflated(path.x) {
+                    let mut spent = Spent::default();
+                    spent.allowed = ALLOWED;
+                    search.known.push(x.clone());
+                    let solved = adapted(settings, mesh.clone(), x, &mut spent)?;
+                    if solved.report.status.is_solved() {
+                        search.keep(settings, solved)?;
+                    }
+                }
+            }
+        }
+        if search.known.len() == next {
+            return Ok(search.found);
+        }
+    }
+}
+
+/// Factorised elements of a refinement that are too many.
+const ALLOWED: usize = 50_000;
+
+struct Search {
+    system: System,
+    goal: Targets,
+    /// Equilibria on the mesh of the search, mirror images included.
+    known: Vec<Iterate>,
+    /// Those that are told apart.
+    found: Vec<Solved>,
+}
+
+impl Search {
+    /// Keeps an equilibrium if it is no mirror image of another.
+    fn keep(&mut self, settings: &Settings, solved: Solved) -> Result<(), InvalidInput> {
+        let problem = &self.system.mesh.problem;
+        let mesh = Mesh::new(problem, solved.nodes.clone(), settings.degree)?;
+        if self.known.is_empty() {
+            self.known.push(super::adapt::transferred(&solved.x, &mesh, &self.system.mesh)?);
+        }
+        let numbers = mean_squares(&mesh, &solved.x);
+        for other in &self.found {
+            let mesh = Mesh::new(problem, other.nodes.clone(), settings.degree)?;
+            let theirs = mean_squares(&mesh, &other.x);
+            if numbers.iter().zip(theirs).all(|(a, b)| (a - b).abs() <= ALIKE * (1.0 + a.abs())) {
+                return Ok(());
+            }
+        }
+        self.found.push(solved);
+        Ok(())
+    }
+
+    /// Newton's method away from what is known.
+    fn deflated(&mut self, mut x: Iterate) -> Option<Iterate> {
+        for _ in 0..STEPS {
+            self.system.settle(&mut x, 1.0);
+            self.system.linearise(&x, &self.goal).ok()?;
+            let change = self.system.correction();
+            let size = change.norm(&self.system.mesh);
+            if !size.is_finite() {
+                return None;
+            }
+            let beside = x.moved(&change, DIFFERENCE / size.max(1.0), &self.system.units);
+            let slope: f64 = self
+                .known
+                .iter()
+                .map(|other| {
+                    let [here, there] = [&x, &beside].map(|x| distance(&self.system.mesh, x, other));
+                    (here - there) * size.max(1.0) / DIFFERENCE / (here * (1.0 + here))
+                })
+                .sum();
+            let factor = 1.0 / (1.0 - slope);
+            let step = factor.signum() * factor.abs().min(LONGEST / size);
+            x = x.moved(&change, step, &self.system.units);
+            if step.abs() * size < SHORT && size < SHORT {
+                let near = |other: &Iterate| distance(&self.system.mesh, &x, other) < NEAR * NEAR;
+                let known = self.known.iter().any(near);
+                return (!known && x.strains.iter().all(|e| e[0].abs() < LARGEST_STRAIN)).then_some(x);
+            }
+        }
+        None
+    }
+}
+
+/// Axial strain beyond which a solution of the equations is no ribbon.
+const LARGEST_STRAIN: f64 = 0.5;
+
+/// The square of the distance of two states: the mean over the length of differences of position/L, `eps` and `K L`.
+fn distance(mesh: &Mesh, a: &Iterate, b: &Iterate) -> f64 {
+    let (length, degree) = (mesh.problem.length, mesh.gauss.degree);
+    let mut sum = 0.0;
+    for i in 0..mesh.elements() {
+        let place = |node: usize| (a.nodes[node].position - b.nodes[node].position).norm_squared();
+        let mut local = 0.5 * (place(i) + place(i + 1)) / (length * length);
+        for (j, weight) in mesh.gauss.weights.iter().enumerate() {
+            let e = a.strains[i * degree + j] - b.strains[i * degree + j];
+            local += weight * (e[0] * e[0] + length * length * e.rows(1, 3).norm_squared());
+        }
+        sum += local * mesh.length(i) / length;
+    }
+    sum
+}
+
+/// Means over the length of the squares of `eps` and `K L`: the same for mirror images.
+fn mean_squares(mesh: &Mesh, x: &Iterate) -> [f64; 4] {
+    let (length, degree) = (mesh.problem.length, mesh.gauss.degree);
+    let mut sums = [0.0; 4];
+    for i in 0..mesh.elements() {
+        for (j, weight) in mesh.gauss.weights.iter().enumerate() {
+            let e = x.strains[i * degree + j];
+            for (k, sum) in sums.iter_mut().enumerate() {
+                let scale = if k == 0 { 1.0 } else { length };
+                *sum += weight * mesh.length(i) / length * (scale * e[k]).powi(2);
+            }
+        }
+    }
+    sums
+}

@@ -1,0 +1,58 @@
+"""Several equilibria by deflation."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import ribbonrs as rb
+from scipy.optimize import brentq
+from scipy.special import ellipk
+
+ROD = rb.LinearLaw(EI1=100.0, EI2=1.0, GJ=1.0, inextensible=True)
+STRIP = rb.Ribbon(10.0, 1.0, 0.1)
+
+
+def test_a_column_has_the_shapes_of_the_elastica() -> None:
+    # Beyond the second buckling load, 9 pi^2/4: straight, and in its plane one shape of each of two modes.
+    load = 30.0
+    column = rb.Scene(rb.Ribbon(1.0, 1.0, 0.1), end=rb.Free(force=(0.0, 0.0, -load)), law=ROD)
+    states = rb.find_states(column, most=30)
+    planar = [s for s in states if np.max(np.abs(s.strains[:, [1, 3]])) < 1e-9]
+    found = sorted(abs(s.strains[0, 2]) for s in planar)
+    # Of mode j: (2 j + 1) K(m) = sqrt(P) L, and at the clamp K2 = 2 sqrt(m P).
+    moduli = [brentq(lambda m, j=j: (2 * j + 1) * ellipk(m) - np.sqrt(load), 0.0, 1 - 1e-12) for j in (0, 1)]
+    exact = sorted([0.0, *(2.0 * np.sqrt(m * load) for m in moduli)])
+    assert np.allclose(
+        found, exact, rtol=0.0, atol=1e-8
+    )  # curvatures are within tol of what they are over L = 1
+
+
+def test_energies_ascend_and_all_are_equilibria() -> None:
+    strip = rb.Scene(STRIP, end=rb.Clamped(position=(0.0, 0.0, 9.5)))
+    states = rb.find_states(strip, most=6)
+    energies = [s.energy + s.load_potential for s in states]
+    assert energies == sorted(energies)
+    assert states[0].index == 0.0
+    assert states[0].energy == pytest.approx(rb.solve(strip).energy, rel=1e-10)
+    assert all(s.report.residual < 1e-9 for s in states)
+    assert len({round(e, 12) for e in energies}) == len(states) == 6
+
+
+def test_unloaded_ribbons_have_their_natural_shapes() -> None:
+    growth = rb.growth.edge(0.06)
+    found = rb.find_states(rb.Scene(STRIP, growth))
+    assert [s.energy for s in found] == [s.energy for s in rb.natural_shapes(STRIP, growth)]
+
+
+def test_the_same_twice() -> None:
+    strip = rb.Scene(STRIP, rb.growth.edge(0.02), end=rb.Clamped(position=(0.0, 0.0, 9.0), twist_turns=0.5))
+    first, again = (rb.find_states(strip, most=4) for _ in range(2))
+    assert [s.energy for s in first] == [s.energy for s in again]
+
+
+@pytest.mark.parametrize("most", [0, -1, 2.5, True, 10**6])
+def test_how_many_is_checked(most: object) -> None:
+    with pytest.raises(
+        rb.InputError, match=r"^find_states\.most = .*: expected a whole number from 1 to 1000$"
+    ):
+        rb.find_states(rb.Scene(STRIP), most=most)  # type: ignore[arg-type]

@@ -21,6 +21,7 @@ from .parameter import parameter_of
 from .plot import write
 from .quantity import check_quantity, label, parameter_label
 from .smooth import Curve, smooth
+from .stability import neutral, stability
 from .symmetry import image, symmetries
 
 __all__ = ["plot"]
@@ -39,14 +40,12 @@ MARKS: dict[str, dict[str, Any]] = {
     "value": {"marker": "o", "markersize": 4, "markerfacecolor": "white"},
     "failed": {"marker": "x", "markersize": 6, "markeredgewidth": 1.5},
 }
-NEUTRAL = {"fold", "branch_point", "section_instability", "branch point", "section instability"}
-"""Kinds of special points, and of ends, at which a direction becomes neutral."""
 # Curvatures up to this times the thickness ratio, and places up to this times the length, are drawn as 0.
 SMALLEST = 1e-6
 INK = "0.2"
 DPI = 200.0
 # Inches, for a column of a journal: the diagram, the margins to its left and below it, and the shapes.
-WIDE, HIGH, LEFT, LOW, SHAPES, ROW = 3.0, 2.4, 0.66, 0.66, 1.5, 0.18
+WIDE, HIGH, LEFT, LOW, SHAPES, ROW = 3.0, 2.4, 0.76, 0.66, 1.5, 0.18
 MOST_SHAPES = 3
 
 
@@ -143,11 +142,11 @@ def _lines(diagram: Diagram, quantity: str) -> Iterator[Line]:
     for branch in diagram.branches:
         finite = _seen(branch, quantity)
         curve = smooth(branch.parameter, finite, straight=quantity == "index")
-        neutral = _neutral(diagram, branch)
+        points = neutral(diagram, branch)
         colour = COLOURS[branch.number % len(COLOURS)]
         if branch.mirrored and -1.0 in factors and np.any(finite != 0.0):
-            yield Line(branch, curve.mirrored(), colour, FAINT, neutral)
-        own.append(Line(branch, curve, colour, 1.0, neutral))
+            yield Line(branch, curve.mirrored(), colour, FAINT, points)
+        own.append(Line(branch, curve, colour, 1.0, points))
     yield from own
 
 
@@ -165,29 +164,9 @@ def _own(lines: list[Line], branch: Branch) -> Line:
     return next(line for line in lines if line.branch is branch and line.alpha == 1.0)
 
 
-def _neutral(diagram: Diagram, branch: Branch) -> frozenset[int]:
-    """The points at which stability changes, and which tell nothing of what is beside them."""
-    places = {
-        point.place
-        for point in diagram.special_points
-        if point.branch == branch.number and {point.kind, point.name} & NEUTRAL
-    }
-    return frozenset(places)
-
-
-def _stability(branch: Branch, neutral: frozenset[int]) -> list[str]:
-    """What is known of the equilibria between point i and i + 1."""
-    told = []
-    for i in range(branch.parameter.size - 1):
-        ends = [j for j in (i, i + 1) if j not in neutral] or [i, i + 1]
-        known, stable = branch.known[ends].all(), branch.stable[ends].all()
-        told.append("stable" if stable else ("unstable" if known else "stability not known"))
-    return told
-
-
 def _runs(line: Line) -> Iterator[tuple[str, Array]]:
     """Parts of a line of one stability each, as points (m, 2)."""
-    told = _stability(line.branch, line.neutral)
+    told = stability(line.branch, line.neutral)
     first = 0
     for i in range(1, len(told) + 1):
         if i == len(told) or told[i] != told[first]:
@@ -196,14 +175,14 @@ def _runs(line: Line) -> Iterator[tuple[str, Array]]:
 
 
 def _draw(axes: Axes, line: Line) -> None:
-    for stability, points in _runs(line):
+    for told, points in _runs(line):
         axes.plot(
             *points.T,
-            linestyle=STYLES[stability],
-            linewidth=WIDTHS[stability],
+            linestyle=STYLES[told],
+            linewidth=WIDTHS[told],
             color=line.colour,
             alpha=line.alpha,
-            zorder=2.0 if stability == "stable" else 1.5,
+            zorder=2.0 if told == "stable" else 1.5,
             dash_capstyle="butt",
         )
 
@@ -235,10 +214,10 @@ def _mark(axes: Axes, point: SpecialPoint, lines: list[Line]) -> None:
 
 def _styles_of(lines: list[Line]) -> Iterator[Line2D]:
     """What the legend says of lines."""
-    present = {stability for line in lines for stability, _ in _runs(line)}
-    for stability, style in STYLES.items():
-        if stability in present:
-            yield Line2D([], [], color=INK, linestyle=style, linewidth=WIDTHS[stability], label=stability)
+    present = {told for line in lines for told, _ in _runs(line)}
+    for told, style in STYLES.items():
+        if told in present:
+            yield Line2D([], [], color=INK, linestyle=style, linewidth=WIDTHS[told], label=told)
     if any(line.alpha < 1.0 for line in lines):
         yield Line2D([], [], color=INK, alpha=FAINT, linewidth=1.8, label=MIRROR)
 
@@ -271,8 +250,8 @@ def _shown(diagram: Diagram) -> Iterator[tuple[Branch, int]]:
     """Stable points of up to three branches, the ones farthest to the right."""
     found = []
     for branch in diagram.branches:
-        neutral = _neutral(diagram, branch)
-        stable = [i for i in np.flatnonzero(branch.stable).tolist() if i not in neutral]
+        places = neutral(diagram, branch)
+        stable = [i for i in np.flatnonzero(branch.stable).tolist() if i not in places]
         if stable:
             found.append((branch, max(stable, key=lambda i: branch.parameter[i])))
     found.sort(key=lambda place: -float(place[0].parameter[place[1]]))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
 from rich.box import SIMPLE_HEAD
 from rich.console import Group, RenderableType
 from rich.table import Table
@@ -12,6 +11,7 @@ from rich.text import Text
 
 from .branch import Branch
 from .diagram import Diagram
+from .stability import stable_spans
 
 __all__ = ["trace_summary"]
 
@@ -46,7 +46,7 @@ def _branches_table(diagram: Diagram) -> Table:
             str(branch.parameter.size),
             first,
             last,
-            ", ".join(_stable(branch)) or ("no" if branch.known.all() else "not known"),
+            ", ".join(_stable(diagram, branch)) or ("no" if branch.known.all() else "not known"),
             began if branch.origin is None else _place(diagram, branch.origin),
             ended,
         )
@@ -59,12 +59,10 @@ def _place(diagram: Diagram, i: int) -> str:
     return f"{point.kind.replace('_', ' ')} of {point.branch}"
 
 
-def _stable(branch: Branch) -> Iterator[str]:
-    """Ranges of the parameter in which points of a branch are stable, in their order."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], branch.stable, [False]])))
-    for first, after in edges.reshape(-1, 2).tolist():
-        ends = branch.parameter[[first, after - 1]].tolist()
-        yield f"{ends[0]:.6g} to {ends[1]:.6g}" if ends[0] != ends[1] else f"at {ends[0]:.6g}"
+def _stable(diagram: Diagram, branch: Branch) -> Iterator[str]:
+    """Ranges of the parameter in which a branch is stable, in its order."""
+    for first, last in stable_spans(diagram, branch):
+        yield f"{first:.6g} to {last:.6g}"
 
 
 def _special_table(diagram: Diagram) -> Iterator[RenderableType]:

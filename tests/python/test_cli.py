@@ -59,6 +59,22 @@ def test_examples_run_and_write_what_they_say(path, tmp_path):
     assert all((tmp_path / name).stat().st_size > 1000 for name in written)
 
 
+TRACED = [path for path in sorted(EXAMPLES.glob("*.toml")) if "[trace]" in path.read_text()]
+SWEPT = [path for path in sorted(EXAMPLES.glob("*.toml")) if "[sweep]" in path.read_text()]
+DRAWN = [("trace", path) for path in TRACED] + [("sweep", path) for path in SWEPT]
+
+
+@pytest.mark.parametrize(("command", "path"), DRAWN, ids=lambda part: getattr(part, "stem", part))
+def test_examples_are_traced_and_swept(command, path, tmp_path):
+    done = run_process(command, str(path), cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "failed" not in done.stdout
+    for file in tmp_path.iterdir():
+        assert f"wrote {file.name}" in done.stdout
+        assert file.stat().st_size > 1000
+        assert (EXAMPLES.parent / "docs" / "figures" / file.name).exists()
+
+
 def test_summary_shows_the_state_in_both_units(scene, capsys):
     assert main(["run", scene(SCENE)]) == 0
     screen, errors = capsys.readouterr()

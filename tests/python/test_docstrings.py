@@ -11,6 +11,7 @@ MODULES = sorted(
     m.name for m in pkgutil.iter_modules(ribbonrs.__path__) if m.name not in ("__main__", "_core")
 )
 WITH_EXAMPLES = {
+    "continuation",
     "deflation",
     "equilibrium",
     "errors",

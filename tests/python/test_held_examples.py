@@ -12,6 +12,7 @@ from ribbonrs.scenefile import read
 ROOT = Path(__file__).parents[2]
 NAMES = (
     "buckled_strip",
+    "buckling_ruler",
     "collar",
     "drooping_leaf",
     "hanging_ring",
@@ -19,6 +20,8 @@ NAMES = (
     "moebius_band",
     "pressed_strip",
     "pulled_tendril",
+    "snapping_strip",
+    "tipping_ruler",
     "twisted_strip",
 )
 

@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
+from ribbonrs.cli import main
 from ribbonrs.scenefile import read
 
 README = (Path(__file__).parents[2] / "README.md").read_text()
@@ -35,3 +36,15 @@ def test_scenes_are_read(block, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("scene.toml").write_text(block)
     assert read("scene.toml").outputs
+
+
+def test_what_a_trace_prints(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["trace", str(Path(__file__).parents[2] / "examples" / "coiling_leaf.toml")]) == 0
+
+    def rows(text):
+        # but for how many points there are on a branch
+        lines = [re.sub(r"(\w)  +\d+  ", r"\1  ", line).strip() for line in text.splitlines()]
+        return [line for line in lines if line]
+
+    assert rows(blocks("text")[0]) == rows(capsys.readouterr().out)

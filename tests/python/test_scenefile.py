@@ -83,6 +83,9 @@ def test_examples_name_their_outputs_after_themselves(path, tmp_path, monkeypatc
     job = read(path)
     assert job.outputs
     assert {output.path.stem for output in job.outputs} == {path.stem}
+    # a picture of branches or phases would have the name of the figure
+    drawn = {output.path.stem for output in (*job.traced, *job.swept)}
+    assert drawn <= {f"{path.stem}_diagram", f"{path.stem}_map"}
 
 
 def test_tables_left_out_have_the_defaults_of_python(job):

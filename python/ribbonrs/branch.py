@@ -178,7 +178,8 @@ class Branch:
                 if not self._repeated(i):
                     yield self.state(i)
             elif i + 1 < self.parameter.size and (here - value) * (self.parameter[i + 1] - value) < 0.0:
-                fraction = root(partial(self._beyond, value, i))
+                ends = here - value, float(self.parameter[i + 1]) - value
+                fraction = root(partial(self._beyond, value, i), ends)
                 yield self.maker.state(value, *self.source.between(i, fraction)[1:])
 
     def _repeated(self, i: int) -> bool:
@@ -232,14 +233,17 @@ class SpecialPoint:
         return self.make()
 
 
-def root(function: Callable[[float], float]) -> float:
-    """Return where in [0, 1] a function of different signs at 0 and 1 is zero."""
+def root(function: Callable[[float], float], ends: tuple[float, float]) -> float:
+    """Return where in [0, 1] a function is zero that has values of different signs at 0 and 1."""
     from scipy.optimize import brentq  # type: ignore[import-untyped]  # scipy takes longer than this package
 
-    ends: dict[float, float] = {end: function(end) for end in (0.0, 1.0)}
-    if ends[0.0] * ends[1.0] >= 0.0:  # rounding beside an end
-        return min(ends, key=lambda end: abs(ends[end]))
-    found: Any = brentq(function, 0.0, 1.0, xtol=1e-14, rtol=1e-14)
+    known = dict(zip((0.0, 1.0), ends, strict=True))
+
+    def value(fraction: float) -> float:
+        # Newton's method need not converge at an end: equations are singular at a special point
+        return known[fraction] if fraction in known else function(fraction)
+
+    found: Any = brentq(value, 0.0, 1.0, xtol=1e-14, rtol=1e-14)
     return float(found)
 
 

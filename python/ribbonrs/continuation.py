@@ -262,7 +262,7 @@ def _zeros(branch: Branch, name: str, function: Function) -> Iterator[SpecialPoi
             parameter = float(branch.parameter[i])
             yield SpecialPoint("zero", parameter, 1, branch.number, i, name, make=partial(branch.state, i))
         elif i + 1 < len(found) and here * found[i + 1] < 0.0:
-            fraction = root(partial(between, i))
+            fraction = root(partial(between, i), (here, found[i + 1]))
             if abs(between(i, fraction)) > JUMP * max(abs(here), abs(found[i + 1])):
                 continue  # it jumps or has a pole there
             parameter = branch.source.between(i, fraction)[0]

@@ -1,0 +1,205 @@
+"""Columns, cantilevers and rings of classical rods: where they buckle, and their shapes beyond."""
+
+import math
+
+import numpy as np
+import pytest
+import ribbonrs as rb
+from continued import along, changes, kinds, places
+from held import largest, rod
+from kirchhoff import Kirchhoff
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+from scipy.special import ellipe, ellipk, jv
+
+PI2 = math.pi**2
+CLOSE = 1e-10
+"""Error of a branch point relative to the span: meshes are refined until it moves by less than 2e-11."""
+SHAPE = 1e-9
+"""Error of a shape of unit size: ten times `tol`."""
+
+
+def law(EI1=100.0, EI2=1.0, GJ=1.0):
+    return rb.LinearLaw(EI1=EI1, EI2=EI2, GJ=GJ, inextensible=True)
+
+
+def traced(name, span, *, EI1=100.0, depth=0, guess=(0.0, 0.0, 0.0, 0.0), **scene_and_more):
+    """The diagram from the straight rod."""
+    more = {k: scene_and_more.pop(k) for k in ("values", "tol", "degree") if k in scene_and_more}
+    scene = rod(law=scene_and_more.pop("law", law(EI1)), **scene_and_more)
+    solved = {k: more[k] for k in ("tol", "degree") if k in more}
+    start = rb.solve(scene, guess=np.array(guess), **solved)
+    return rb.trace(scene, name, span, start=start, depth=depth, **more)
+
+
+def close(found, expected, span):
+    np.testing.assert_allclose(found, expected, atol=CLOSE * (span[1] - span[0]), rtol=0.0)
+
+
+def bessel(order, low, high):
+    """The zero of J_order between two numbers."""
+    return brentq(lambda x: jv(order, x), low, high, xtol=1e-15)
+
+
+TANGENT = brentq(lambda x: math.sin(x) - x * math.cos(x), 4.0, 4.7, xtol=1e-15)
+"""tan x = x."""
+
+
+def elastica(P):
+    """Modulus, tip deflection and height of a clamped-free column of length 1 under a load P."""
+    k = brentq(lambda k: ellipk(k * k) - math.sqrt(P), 1e-9, 1.0 - 1e-15, xtol=1e-16)
+    return k, 2.0 * k / math.sqrt(P), 2.0 * ellipe(k * k) / math.sqrt(P) - 1.0
+
+
+# --- columns of Euler
+
+
+def test_clamped_free():
+    span = (-30.0, 0.0)
+    diagram = traced("end.force[2]", span, end=rb.Free((0.0, 0.0, -1.0)))
+    assert kinds(diagram) == {"branch_point"}
+    close(places(diagram, "branch_point"), [-2.25 * PI2, -0.25 * PI2], span)
+    assert along(diagram) == [2.0, 1.0, 0.0]
+    assert diagram.branches[0].ended == ("span", "span")
+    assert diagram.branches[0].parameter[[0, -1]].tolist() == [-30.0, 0.0]
+
+
+@pytest.mark.parametrize(
+    ("span", "load", "index"), [((-60.0, 0.0), 4.0 * PI2, [1, 0]), ((-85.0, -60.0), 4.0 * TANGENT**2, [2, 1])]
+)
+def test_clamped_sliding(span, load, index):
+    diagram = traced("end.force", span, end=rb.Sliding(force=span[1] - 1.0))
+    close(places(diagram, "branch_point"), [-load], span)
+    assert along(diagram) == index
+
+
+@pytest.mark.parametrize(("n", "quarters"), [("end.force[2]", 1), ("end.force", 4)])
+def test_isotropic_columns(n, quarters):
+    end = rb.Free((0.0, 0.0, -1.0)) if quarters == 1 else rb.Sliding(force=-1.0)
+    span = (-12.0 * quarters, 0.0)
+    diagram = traced(n, span, EI1=1.0, end=end)
+    (point,) = [p for p in diagram.special_points if p.kind != "end"]
+    if quarters == 1:
+        close([point.parameter], [-PI2 / 4.0], span)
+    else:
+        close([point.parameter], [-4.0 * PI2], span)
+    assert (point.kind, point.multiplicity) == ("branch_point", 2)
+    assert list(changes(diagram)) == [("branch_point", 2, -2.0)]
+
+
+def test_a_hinged_column_that_is_pressed_together():
+    # the rod under P has the length 1 - P/EA, and buckles where P (1 - P/EA) = n^2 pi^2
+    EA, span = 1000.0, (0.9, 1.0)
+    stretch = [(1.0 + math.sqrt(1.0 - 4.0 * n * n * PI2 / EA)) / 2.0 for n in (3, 2, 1)]
+    ends = {"start": rb.Hinged(2), "end": rb.Hinged(2)}
+    diagram = traced(
+        "end.position[2]", span, depth=1, law=rb.LinearLaw(EA=EA, EI1=100.0, EI2=1.0, GJ=1.0), **ends
+    )
+    close(places(diagram, "branch_point", 0), stretch, span)
+    assert diagram.branches[0].index[[0, -1]].tolist() == [0.0, 3.0]
+    assert [b.mirrored for b in diagram.branches[1:]] == [True] * 3
+    for z, point in zip(stretch[::-1], [p for p in diagram.special_points if p.kind != "end"], strict=True):
+        assert point.state.reactions.end.force[2] == pytest.approx(EA * (z - 1.0), abs=EA * 1e-10)
+    assert diagram.branches[1].stable[1:].all()
+
+
+def test_the_elastica_beyond():
+    loads = [-9.0, -6.0, -4.0, -3.0, -2.5]
+    diagram = traced("end.force[2]", (-10.0, 0.0), end=rb.Free((0.0, 0.0, -1.0)), depth=1, values=loads)
+    _, bent = diagram.branches
+    assert (bent.mirrored, bent.ended) == (True, ("branch point", "span"))
+    assert diagram.special_points[bent.origin].kind == "branch_point"
+    assert bent.stable[1:].all()
+    found = {p.parameter: p.state for p in diagram.special_points if p.kind == "value" and p.branch == 1}
+    assert sorted(found) == pytest.approx(loads, rel=1e-15)
+    for load, state in found.items():
+        k, x, z = elastica(-load)
+        assert np.abs(state.position[-1]) == pytest.approx([x, 0.0, abs(z)], abs=SHAPE)
+        assert math.copysign(1.0, state.position[-1, 2]) == math.copysign(1.0, z)
+        assert abs(state.strains[0, 2]) == pytest.approx(2.0 * k * math.sqrt(-load), abs=SHAPE * -load)
+        assert math.acos(state.directors[-1, 2, 2]) == pytest.approx(2.0 * math.asin(k), abs=10.0 * SHAPE)
+
+
+def test_the_elastica_of_a_hinged_column():
+    # from one side through the straight rod to its mirror image: two quarter waves
+    scene = rod(law=law(), start=rb.Hinged(2), end=rb.Hinged(2))
+    diagram = rb.trace(scene, "end.position[2]", (0.5, 1.0), values=[0.75, 0.9])
+    (branch,) = diagram.branches
+    assert branch.parameter[[0, -1]].tolist() == [0.5, 0.5]
+    (straight,) = [p for p in diagram.special_points if p.kind == "branch_point"]
+    assert straight.parameter == pytest.approx(1.0, abs=1e-15)
+    assert straight.state.reactions.end.force[2] == pytest.approx(-PI2, rel=SHAPE)
+    found = [p for p in diagram.special_points if p.kind == "value"]
+    assert [round(p.parameter, 12) for p in found] == [0.75, 0.9, 0.9, 0.75]
+    for point in found:
+        state = point.state
+        _, x, z = elastica(-state.reactions.end.force[2] / 4.0)
+        assert z == pytest.approx(point.parameter, abs=SHAPE)
+        assert abs(state.at([0.5]).position[0, 0]) == pytest.approx(0.5 * x, abs=SHAPE)
+        assert state.stable
+
+
+# --- other loads
+
+
+def heavy(q):
+    """Tip angle of a heavy column of length 1: theta'' = -q (1 - s) sin theta, by shooting."""
+
+    def shot(tip):
+        def rate(s, y):  # from the tip, s the distance from it
+            return [y[1], -q * s * math.sin(y[0])]
+
+        return solve_ivp(rate, (0.0, 1.0), [tip, 0.0], "DOP853", rtol=1e-13, atol=1e-14).y[0, -1]
+
+    return brentq(shot, 0.3, 3.0, xtol=1e-14)
+
+
+def test_greenhill():
+    span, loads = (-16.0, 0.0), [-15.0, -10.0]
+    diagram = traced("gravity[2]", span, gravity=(0.0, 0.0, -1.0), depth=1, values=loads)
+    close(places(diagram, "branch_point"), [-2.25 * bessel(-1.0 / 3.0, 1.0, 3.0) ** 2], span)
+    assert along(diagram) == [1.0, 0.0]
+    bent = diagram.branches[1]
+    assert (bent.mirrored, bent.ended) == (True, ("branch point", "span"))
+    assert bent.stable[1:].all()
+    for point in (p for p in diagram.special_points if p.kind == "value" and p.branch == 1):
+        tip = math.acos(point.state.directors[-1, 2, 2])
+        assert tip == pytest.approx(heavy(-point.parameter), abs=SHAPE)
+
+
+@pytest.mark.parametrize("EI1", [1e12, math.inf])
+@pytest.mark.parametrize(
+    ("name", "scene", "load"),
+    [
+        ("end.force[1]", {"end": rb.Free((0.0, 1.0, 0.0))}, 2.0 * bessel(-0.25, 1.0, 3.0)),
+        ("gravity[1]", {"gravity": (0.0, 1.0, 0.0)}, 6.0 * bessel(-1.0 / 6.0, 1.0, 3.0)),
+    ],
+    ids=["Prandtl-Michell", "weight"],
+)
+def test_cantilevers_that_tip_over(EI1, name, scene, load):
+    span = (0.0, 2.0 * load)
+    diagram = traced(name, span, EI1=EI1, depth=1, **scene)
+    close(places(diagram, "branch_point"), [load], span)
+    assert along(diagram) == [0.0, 1.0]
+    over = diagram.branches[1]
+    assert (over.mirrored, over.ended) == (True, ("branch point", "span"))
+    assert over.stable[1:].all()
+    state = over.state(-1)
+    assert abs(state.position[-1, 0]) > 0.2
+    # the same by an initial-value problem from S = 0
+    equations, S = Kirchhoff(state.scene), np.array([0.3, 1.0])
+    assert largest(equations.carried(state, S) - equations.state(state.at(S))) < 1e-8
+
+
+@pytest.mark.parametrize("GJ", [1.0, 1.5])
+def test_ring_that_is_twisted(GJ):
+    clamp = rb.Clamped((0.0, 0.0, 0.0))
+    span = (0.0, 2.2 / GJ)
+    ring = (0.0, 0.0, 2.0 * math.pi, 0.0)
+    ends = {"start": clamp, "end": clamp, "law": law(1.0, GJ=GJ)}
+    diagram = traced("end.twist_turns", span, guess=ring, **ends)
+    (point,) = [p for p in diagram.special_points if p.kind != "end"]
+    assert (point.kind, point.multiplicity) == ("branch_point", 2)
+    # twist is no linear parameter: it is differentiated by differences of 1e-7
+    assert point.parameter == pytest.approx(math.sqrt(3.0) / GJ, rel=1e-9)
+    assert along(diagram) == [0.0, 2.0]

@@ -16,7 +16,7 @@ use super::chain::Reduced;
 use super::dense::Determinant;
 use super::eliminated::{Change, Eliminated};
 use super::iterate::Correction;
-use super::panel::Panel;
+use super::panel::{Panel, SVD_STEPS};
 use super::system::{Residual, System};
 use super::transfer::joined;
 use crate::section::Strain;
@@ -226,7 +226,7 @@ impl System {
         if !matrix.iter().all(|x| x.is_finite()) {
             return Vec::new();
         }
-        let svd = matrix.svd(false, true);
+        let Some(svd) = matrix.try_svd(false, true, f64::EPSILON, SVD_STEPS) else { return Vec::new() };
         let mut order: Vec<usize> = (0..svd.singular_values.len()).collect();
         order.sort_by(|&i, &j| svd.singular_values[i].total_cmp(&svd.singular_values[j]));
         let Some(v) = svd.v_t else { return Vec::new() };

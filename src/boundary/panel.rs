@@ -31,6 +31,8 @@ pub enum Panel {
 const LARGE: f64 = 1e4;
 /// Singular values below this part of the next vanish.
 const VANISHING: f64 = 1e-5;
+/// Steps of a singular value decomposition that are too many.
+pub const SVD_STEPS: usize = 1000;
 /// The most singular values that may.
 const MOST: usize = 3;
 
@@ -66,7 +68,7 @@ impl Panel {
         if !scaled.iter().all(|x| x.is_finite()) {
             return None;
         }
-        let svd = scaled.svd(true, true);
+        let svd = scaled.try_svd(true, true, f64::EPSILON, SVD_STEPS)?;
         let (u, v) = (svd.u?, svd.v_t?);
         let mut order: Vec<usize> = (0..scale.len()).collect();
         order.sort_by(|&i, &k| svd.singular_values[i].total_cmp(&svd.singular_values[k]));

@@ -216,6 +216,7 @@ pub fn follow<E: Equations>(
             (memory, since, meshes) = (1, CHECKED, meshes + 1);
             continue;
         }
+        unresolved_before = f64::INFINITY;
         for found in found {
             stopped = stop(equations, &found.point, found.kind);
             let place = branch.points.len();

@@ -279,21 +279,14 @@ impl Equations for Held {
     }
 
     fn coordinates(&mut self, x: &HeldState, _: f64) -> Vec<f64> {
-        let Some(system) = &self.system else { return Vec::new() };
-        let (length, weights) = (system.mesh.problem.length, &system.mesh.gauss.weights);
-        // Means of the strains over both halves.
-        let mut sums = vec![0.0; 8];
-        for (i, pair) in x.nodes.windows(2).enumerate() {
-            let half = if pair[0] + pair[1] < 1.0 { 0 } else { 4 };
-            let strains = &x.x.strains[i * self.degree..(i + 1) * self.degree];
-            for (strain, weight) in strains.iter().zip(weights) {
-                for k in 0..4 {
-                    let scale = if k == 0 { 1.0 } else { length };
-                    sums[half + k] += (pair[1] - pair[0]) * weight * scale * strain[k];
-                }
-            }
-        }
-        sums
+        let length = self.system.as_ref().map_or(1.0, |system| system.mesh.problem.length);
+        // Places of a few sections, joined by lines.
+        let place = |part: f64| {
+            let i = x.nodes.partition_point(|&node| node <= part).clamp(1, x.nodes.len() - 1);
+            let (from, to) = (x.nodes[i - 1], x.nodes[i]);
+            x.x.nodes[i - 1].position.lerp(&x.x.nodes[i].position, (part - from) / (to - from)) / length
+        };
+        [0.25, 0.5, 0.75, 1.0].into_iter().flat_map(|part| place(part).data.0[0]).collect()
     }
 
     fn invariants(&mut self, x: &HeldState, _: f64) -> Vec<f64> {

@@ -297,6 +297,12 @@ fn solution(
     Ok(BoundarySolution::from(solution))
 }
 
+/// A value that was asked for, where it is one but for rounding.
+fn asked(value: f64, span: [f64; 2], values: &[f64]) -> f64 {
+    let near = |one: &&f64| (**one - value).abs() <= 1e-12 * (span[1] - span[0]);
+    values.iter().find(near).copied().unwrap_or(value)
+}
+
 fn parameter(span: [f64; 2], t: f64) -> f64 {
     if t == 1.0 { span[1] } else { span[0] + t * (span[1] - span[0]) }
 }
@@ -368,13 +374,18 @@ fn held_row(
 }
 
 /// The special points of all branches, in order, and the number of the first of each branch.
-fn specials<S, C>(branches: &[Branch<S, C>], span: [f64; 2]) -> (Vec<SpecialPoint>, Vec<usize>) {
+fn specials<S, C>(
+    branches: &[Branch<S, C>],
+    span: [f64; 2],
+    values: &[f64],
+) -> (Vec<SpecialPoint>, Vec<usize>) {
     let (mut special, mut first) = (Vec::new(), Vec::new());
     for (i, branch) in branches.iter().enumerate() {
         first.push(special.len());
         for one in &branch.special {
             let t = branch.points[one.place].t;
-            special.push((one.kind.name().to_owned(), i, one.place, parameter(span, t), one.multiplicity));
+            let value = asked(parameter(span, t), span, values);
+            special.push((one.kind.name().to_owned(), i, one.place, value, one.multiplicity));
         }
     }
     (special, first)
@@ -434,12 +445,13 @@ pub fn trace(
             let first = if t >= 1.0 { turned(&equations, first) } else { first };
             let found = diagram(&mut equations, vec![first], depth, &limits);
             let stopped = was_interrupted(&found);
-            let (special, numbers) = specials(&found.branches, span);
+            let (special, numbers) = specials(&found.branches, span, &values);
             let equations = Arc::new(Mutex::new(equations));
             let branch = |branch: Branch<HeldState, _>| {
                 let rows =
                     branch.points.iter().map(|point| held_row(&mut lock(&equations), point, span, degree));
-                let rows = rows.collect::<Result<_, InvalidInput>>()?;
+                let mut rows = rows.collect::<Result<Vec<Row>, InvalidInput>>()?;
+                rows.iter_mut().for_each(|row| row.parameter = asked(row.parameter, span, &values));
                 let origin = branch.origin.map(|(number, i)| numbers[number] + i);
                 let points = Points::Held(Arc::clone(&equations), branch.points);
                 let (ended, mirrored) = (branch.ended, branch.mirrored);
@@ -489,10 +501,11 @@ pub fn trace_natural(
             }
         }
         let found = diagram(&mut equations, starts, depth, &limits);
-        let (special, numbers) = specials(&found.branches, span);
+        let (special, numbers) = specials(&found.branches, span, &values);
         let branch = |branch: Branch<[f64; 2], [f64; 2]>| {
             let rows = branch.points.iter().map(|point| natural_row(&mut equations, point, span));
-            let rows = rows.collect::<Result<_, InvalidInput>>()?;
+            let mut rows = rows.collect::<Result<Vec<Row>, InvalidInput>>()?;
+            rows.iter_mut().for_each(|row| row.parameter = asked(row.parameter, span, &values));
             let origin = branch.origin.map(|(number, i)| numbers[number] + i);
             // An image differs in a sign alone.
             let image = |point: &NaturalPoint| {

@@ -226,7 +226,7 @@ impl System {
         if !matrix.iter().all(|x| x.is_finite()) {
             return Vec::new();
         }
-        let Some(svd) = matrix.try_svd(false, true, f64::EPSILON, SVD_STEPS) else { return Vec::new() };
+        let Some(svd) = matrix.try_svd(false, true, 5.0 * f64::EPSILON, SVD_STEPS) else { return Vec::new() };
         let mut order: Vec<usize> = (0..svd.singular_values.len()).collect();
         order.sort_by(|&i, &j| svd.singular_values[i].total_cmp(&svd.singular_values[j]));
         let Some(v) = svd.v_t else { return Vec::new() };

@@ -28,7 +28,7 @@ const DIFFERENCE: f64 = 1e-6;
 /// Relative difference of energies and mean squares that mirror images may have.
 const ALIKE: f64 = 1e-7;
 
-/// Equilibria, at most so many, that differ in more than a reflection: first that of [`solve`], if there is one, then those that
+/// Equilibria, at most so many, that differ in more than a reflection: first the one from zero load, if there is one, then those that
 /// deflation finds from disturbances of all that are known.
 ///
 /// # Errors

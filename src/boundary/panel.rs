@@ -68,7 +68,7 @@ impl Panel {
         if !scaled.iter().all(|x| x.is_finite()) {
             return None;
         }
-        let svd = scaled.try_svd(true, true, f64::EPSILON, SVD_STEPS)?;
+        let svd = scaled.try_svd(true, true, 5.0 * f64::EPSILON, SVD_STEPS)?;
         let (u, v) = (svd.u?, svd.v_t?);
         let mut order: Vec<usize> = (0..scale.len()).collect();
         order.sort_by(|&i, &k| svd.singular_values[i].total_cmp(&svd.singular_values[k]));

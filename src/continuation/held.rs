@@ -303,6 +303,12 @@ impl Equations for Held {
                 }
             }
         }
+        // A rod that is the same in all directions may be turned by any angle.
+        let compliance = system.mesh.problem.law.at(0.0).map(|response| response.compliance);
+        if compliance.is_ok_and(|c| c[1] == c[2]) {
+            sums[1] += sums[2];
+            sums[2] = 0.0;
+        }
         sums
     }
 

@@ -7,6 +7,9 @@
 //! - [`section`]: the energy of the relaxed cross-section, its derivatives and its deflection;
 //! - [`equilibrium`]: every unloaded equilibrium of a uniformly growing ribbon;
 //! - [`maps`]: phase diagrams over two parameters;
+//! - [`boundary`]: ribbons that are held and loaded, by Gauss collocation;
+//! - [`continuation`]: branches of equilibria as a parameter varies, and what is special on them;
+//! - [`maps`]: phase diagrams of two parameters;
 //! - [`frame`]: from the strains along the ribbon to its position and orientation in space.
 //!
 //! # Conventions

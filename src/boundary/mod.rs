@@ -69,5 +69,6 @@ pub use problem::{LineLoad, PointLoad, Problem};
 pub use report::{Report, Status};
 pub use solution::{Energies, SectionState, Solution, Wrench, energies};
 pub use solve::{DEGREE, Settings, Solved, goal};
+pub use stability::Spring;
 pub use step::Stepper;
 pub use system::{Failure, Residual, Sections, System, Targets};

@@ -143,22 +143,48 @@ fn symmetric(k: &Matrix6<f64>) -> Matrix6<f64> {
     0.5 * (k + k.transpose())
 }
 
-/// The index under the end conditions; `None` where it cannot be told. As many eigenvalues as there are free motions, which change
-/// nothing, do not count.
+/// A spring of unit stiffness at a node, along a change of its pose.
+#[derive(Clone, Copy, Debug)]
+pub struct Spring {
+    /// The node.
+    pub node: usize,
+    /// Position and rotation.
+    pub along: nalgebra::Vector6<f64>,
+}
+
+impl Spring {
+    /// What holds a motion of all nodes: in the middle, where it is carried by both halves, or else where it moves most.
+    #[must_use]
+    pub fn against(motion: &[[f64; 12]]) -> Option<Self> {
+        let pose = |node: usize| nalgebra::Vector6::from_column_slice(&motion[node][..6]);
+        let size = |node: usize| pose(node).norm();
+        let most = (0..motion.len()).max_by(|&a, &b| size(a).total_cmp(&size(b)))?;
+        let middle = motion.len() / 2;
+        let node = if size(middle) > 0.05 * size(most) { middle } else { most };
+        (size(node) > 0.0).then(|| Self { node, along: pose(node) / size(node) })
+    }
+}
+
+/// The index under the end conditions; `None` where it cannot be told. Springs hold free
+/// motions, which change nothing and do not count: they change the sign of nothing else.
 #[must_use]
 pub fn index(
     problem: &Problem,
     rows: &[Rows],
     places: &[Place],
     units: &Units,
-    free_motions: usize,
+    holding: &[Spring],
 ) -> Option<usize> {
     let rigid = problem.law.at(0.0).ok()?.compliance.min() == 0.0;
     let free = freedom(problem.ends[0].hold);
     let springs = &free * free.transpose() / -SPRING;
     let mut behind: Matrix6<f64> = SMatrix::from_iterator(springs.iter().copied());
     let mut index = 0_isize;
-    for (row, ends) in rows.iter().zip(places.windows(2)) {
+    let held = |node: usize| {
+        let here = holding.iter().filter(|spring| spring.node == node);
+        here.fold(Matrix6::zeros(), |sum, spring| sum + spring.along * spring.along.transpose())
+    };
+    for (i, (row, ends)) in rows.iter().zip(places.windows(2)).enumerate() {
         let element = Blocks::new(row, [&ends[0], &ends[1]], units)?;
         // An element so long that it buckles by itself, held at its start alone: its strains were eliminated at that.
         let softness = -element.pp;
@@ -167,7 +193,7 @@ pub fn index(
         pivot.fixed_view_mut::<6, 6>(0, 0).copy_from(&behind);
         pivot.fixed_view_mut::<6, 6>(0, 6).fill_with_identity();
         pivot.fixed_view_mut::<6, 6>(6, 0).fill_with_identity();
-        pivot.fixed_view_mut::<6, 6>(6, 6).copy_from(&element.dd);
+        pivot.fixed_view_mut::<6, 6>(6, 6).copy_from(&(element.dd + held(i)));
         let pivot = Symmetric::new(&pivot)?;
         index += pivot.negative(0.0) as isize;
         let mut own = Matrix6::zeros();
@@ -184,7 +210,8 @@ pub fn index(
     last.fixed_view_mut::<6, 6>(0, 0).copy_from(&behind);
     last.view_mut((0, 6), (6, free.ncols())).copy_from(&free);
     last.view_mut((6, 0), (free.ncols(), 6)).copy_from(&free.transpose());
-    last.view_mut((6, 6), (free.ncols(), free.ncols())).fill(0.0);
+    let spring = free.transpose() * held(rows.len()) * &free;
+    last.view_mut((6, 6), (free.ncols(), free.ncols())).copy_from(&spring);
     // No flexibility at all is a little of it; of gliding there is neither more nor less.
     let zero = match (problem.glides(), rigid) {
         (true, _) => -GLIDING,
@@ -192,12 +219,6 @@ pub fn index(
         (false, false) => 0.0,
     };
     let last = last - SMatrix::identity() * (zero * behind.amax());
-    if free_motions == 0 {
-        index += Symmetric::new(&last)?.negative(0.0) as isize - 6;
-    } else {
-        let mut values: Vec<f64> = last.symmetric_eigenvalues().iter().copied().collect();
-        values.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-        index += values.iter().skip(free_motions).filter(|value| **value < 0.0).count() as isize - 6;
-    }
+    index += Symmetric::new(&last)?.negative(0.0) as isize - 6;
     usize::try_from(index).ok()
 }

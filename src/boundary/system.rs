@@ -14,7 +14,7 @@ use super::iterate::{Iterate, Layout, settle};
 use super::mesh::Mesh;
 use super::problem::Problem;
 use super::sparse::{Blocks, Sparse};
-use super::stability::{Place, index};
+use super::stability::{Place, Spring, index};
 use super::transfer::{Anchor, Flexibility, Rows, cayley, transfer};
 use crate::InvalidInput;
 use crate::section::Strain;
@@ -480,12 +480,12 @@ impl System {
     /// potential; `None` where it cannot be told.
     pub fn index(&mut self, x: &Iterate, targets: &Targets) -> Option<usize> {
         self.linearise_open(x, targets).ok()?;
-        self.index_here(x, targets.load, 0)
+        self.index_here(x, targets.load, &[])
     }
 
     /// The same, where the equations were just linearised.
     #[must_use]
-    pub fn index_here(&self, x: &Iterate, load: f64, free_motions: usize) -> Option<usize> {
+    pub fn index_here(&self, x: &Iterate, load: f64, springs: &[Spring]) -> Option<usize> {
         if self.sparse.is_some() || !self.mesh.problem.is_conservative() {
             return None;
         }
@@ -494,7 +494,7 @@ impl System {
             Place { position: at.position, force: [at.force + jump, at.force], moment: at.moment() }
         };
         let places: Vec<Place> = x.nodes.iter().enumerate().map(place).collect();
-        index(&self.mesh.problem, &self.transfers, &places, &self.units, free_motions)
+        index(&self.mesh.problem, &self.transfers, &places, &self.units, springs)
     }
 
     /// Condition number of what is left when all nodes but the last are eliminated.

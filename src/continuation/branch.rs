@@ -131,6 +131,8 @@ const TURN: f64 = 0.7;
 const SHORTEST: f64 = 1e-7;
 /// Tangents that a prediction uses.
 const MEMORY: usize = 4;
+/// Looks at a mesh in a row that may be postponed.
+const MOST_POSTPONED: usize = 3;
 /// Meshes of a branch that are too many.
 const MOST_MESHES: usize = 20;
 /// Steps after which the mesh is looked at.
@@ -159,6 +161,7 @@ pub fn follow<E: Equations>(
     let mut steps = 0;
     let mut at_end = false;
     let (mut meshes, mut unresolved_before) = (0, f64::INFINITY);
+    let mut postponed = 0;
     loop {
         if meshes > MOST_MESHES {
             branch.ended[1] = Ended::Failed(Failed::Unresolved(meshes));
@@ -167,8 +170,10 @@ pub fn follow<E: Equations>(
         if since >= CHECKED || at_end {
             since = 0;
             match verified(equations, &mut branch, fine, limits) {
-                Ok(true) => fine = branch.points.len() - 1,
+                Ok(true) => (fine, postponed) = (branch.points.len() - 1, 0),
                 Ok(false) => (memory, at_end, meshes) = (1, false, meshes + 1),
+                // Next to a branch point errors are large in one direction only: the next points tell more.
+                Err(Failed::Fine(_)) if postponed < MOST_POSTPONED && !at_end => postponed += 1,
                 Err(failed) => {
                     branch.ended[1] = ended_by(branch.points.last(), failed);
                     break;

@@ -49,7 +49,7 @@ const SMALL: f64 = 1e-2;
 /// Tangent and stability are exact enough if the last correction before them was below this.
 const EXACT: f64 = 1e-10;
 /// Below this corrections that no longer shrink are rounding, which a branch point near by amplifies along the other branch.
-const ROUNDING: [f64; 2] = [1e-9, 1e-7];
+const ROUNDING: [f64; 2] = [1e-8, 1e-7];
 
 /// The equilibrium near a guess, to `tolerance`. Tangent and stability are those where the equations were last linearised, before
 /// a correction below [`SMALL`], or, if `exactly`, below [`EXACT`].
@@ -65,7 +65,7 @@ pub fn corrected<E: Equations>(
     let Guess { mut x, mut t, across, sense } = guess;
     let negligible = ROUNDING[usize::from(exactly)];
     let (mut before, mut first) = (f64::INFINITY, f64::INFINITY);
-    for _ in 0..ITERATIONS {
+    for iteration in 0..ITERATIONS {
         equations.linearise(&x, t, across)?;
         let line = equations.line();
         // To where the line of solutions meets the plane.
@@ -102,7 +102,9 @@ pub fn corrected<E: Equations>(
             return Err(Failed::Diverged(again));
         }
         before = again;
-        if (again <= tolerance || rounding) && (rounding || !exactly || size <= EXACT) {
+        if (again <= tolerance || rounding)
+            && (rounding || !exactly || size <= EXACT || iteration > ITERATIONS / 2)
+        {
             let x = equations.settled(x, t)?;
             let place = equations.settled(linearised.0, linearised.1)?;
             let stability = equations.stability(&place, linearised.1);

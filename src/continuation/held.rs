@@ -9,8 +9,8 @@ use super::equations::{Direction, Equations, Failed, Stability, dot, plus, unit}
 use super::locus::Plane;
 use crate::InvalidInput;
 use crate::boundary::{
-    Bordered, Correction, Defects, Failure, Family, Iterate, Layout, Line, Mesh, Problem, Stepper, System,
-    defects, goal, refined, transferred,
+    Bordered, Correction, Defects, Failure, Family, Iterate, Layout, Line, Mesh, Problem, Spring, Stepper,
+    System, defects, goal, refined, transferred,
 };
 use crate::section::Strain;
 
@@ -271,8 +271,13 @@ impl Equations for Held {
         let Some(system) = &self.system else { return Stability::default() };
         let sections = system.sections;
         let free = self.free.len();
-        let index =
-            if sections.index > 0 { None } else { self.work.index.of(|| system.index_here(&x.x, 1.0, free)) };
+        let springs: Vec<Spring> =
+            self.free.iter().filter_map(|motion| Spring::against(&motion.x.nodes)).collect();
+        let index = if sections.index > 0 {
+            None
+        } else {
+            self.work.index.of(|| system.index_here(&x.x, 1.0, &springs))
+        };
         let determinant = self.bordered.as_ref().and_then(|bordered| system.determinant(bordered));
         let section = sections.least.min(1e300);
         Stability { section_index: sections.index, section, index, free_motions: free, determinant }

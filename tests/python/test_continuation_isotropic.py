@@ -1,4 +1,4 @@
-"""A rod that is the same in all directions buckles in any of them: one branch, and a turn that costs nothing."""
+"""A rod that is the same in all directions buckles in any of them, and the index is that of one branch."""
 
 from __future__ import annotations
 

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use nalgebra::{Matrix3, Matrix4, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 use super::chain::{Border, Chain};
 use super::element::{Entry, Exit, Span, Stages};
@@ -13,6 +13,7 @@ use super::ends::{Condition, End, Units, conditions, half_angle};
 use super::iterate::{Iterate, Layout, settle};
 use super::mesh::Mesh;
 use super::problem::Problem;
+use super::sections::Sections;
 use super::sparse::{Blocks, Sparse};
 use super::stability::{Place, Spring, index};
 use super::transfer::{Anchor, Flexibility, Rows, cayley, transfer};
@@ -70,49 +71,6 @@ pub struct Residual {
     pub start: [f64; 6],
     /// Minus that of the conditions at the end.
     pub end: [f64; 6],
-}
-
-/// What the tangent stiffnesses of sections say of their stability.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sections {
-    /// The largest number of negative eigenvalues.
-    pub index: usize,
-    /// The least determinant, of the stiffness relative to that of the ungrown section; it changes sign with the first
-    /// eigenvalue.
-    pub least: f64,
-}
-
-impl Default for Sections {
-    fn default() -> Self {
-        Self { index: 0, least: f64::INFINITY }
-    }
-}
-
-impl Sections {
-    /// Takes a tangent stiffness into account, its rows times a compliance.
-    fn add(&mut self, tangent: &Matrix4<f64>, compliance: &Strain) {
-        // A rigid section is stable.
-        if compliance.min() == 0.0 {
-            return;
-        }
-        let scale = compliance.map(f64::sqrt);
-        let mut a = tangent.map_with_location(|i, k, x| x * scale[k] / scale[i]);
-        let (mut negative, mut determinant) = (0, 1.0);
-        // The stiffnesses in eps and K1 come first and are positive: no pivoting is needed.
-        for k in 0..4 {
-            let pivot = a[(k, k)];
-            negative += usize::from(pivot < 0.0);
-            determinant *= pivot;
-            for i in k + 1..4 {
-                let factor = a[(i, k)] / pivot;
-                for j in k + 1..4 {
-                    a[(i, j)] -= factor * a[(k, j)];
-                }
-            }
-        }
-        self.index = self.index.max(negative);
-        self.least = if determinant < self.least { determinant } else { self.least };
-    }
 }
 
 impl Residual {

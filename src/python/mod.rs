@@ -5,10 +5,11 @@
 
 mod boundary;
 mod branch;
-mod continuation;
 mod frame;
 mod maps;
 mod section;
+mod trace;
+mod traced;
 
 use numpy::PyReadonlyArray2;
 use pyo3::exceptions::PyValueError;
@@ -53,13 +54,15 @@ mod _core {
     #[pymodule_export]
     use super::branch::NaturalBranch;
     #[pymodule_export]
-    use super::continuation::{Trace, TracedBranch, trace, trace_natural};
-    #[pymodule_export]
     use super::frame::{gauss_points, helix, integrate_gauss, integrate_nodal, integrate_segments};
     #[pymodule_export]
     use super::maps::{map_outline, phase_map};
     #[pymodule_export]
     use super::section::{SectionLaw, natural_shapes_of};
+    #[pymodule_export]
+    use super::trace::{Trace, trace, trace_natural};
+    #[pymodule_export]
+    use super::traced::TracedBranch;
 
     /// Looks up numpy's C interface now: the crate panics if that fails, as it would at an interrupt later.
     #[pymodule_init]

@@ -1,4 +1,4 @@
-//! Branches of equilibria.
+//! A branch of equilibria, what is told of its points, and what can be asked of it further.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -7,23 +7,22 @@ use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-use super::boundary::{BoundaryProblem, BoundarySolution, checked_degree, interrupted};
+use super::boundary::{BoundaryProblem, BoundarySolution, interrupted};
 use super::section::SectionLaw;
 use crate::InvalidInput;
-use crate::boundary::{Family, Mesh, Solution, energies};
+use crate::boundary::{Correction, Family, Mesh, Solution, energies};
 use crate::continuation::{
-    Branch, Diagram, Ended, Equations, Failed, Held, HeldState, Limits, Natural, NaturalFamily, Point,
-    SpecialKind, begin, between, diagram, locus,
+    Branch, Ended, Held, HeldState, Limits, Natural, NaturalFamily, Point, SpecialKind, between, locus,
 };
-use crate::equilibrium::natural_shapes;
 use crate::frame::{Pose, helix};
 use crate::section::Strain;
 
-type HeldPoint = Point<HeldState, crate::boundary::Correction>;
+type HeldPoint = Point<HeldState, Correction>;
 type NaturalPoint = Point<[f64; 2], [f64; 2]>;
-
-/// Kind, branch, place among its points, parameter, multiplicity.
-type SpecialPoint = (String, usize, usize, f64, usize);
+/// A branch of a ribbon that is held.
+pub type HeldBranch = Branch<HeldState, Correction>;
+/// A branch of natural shapes.
+pub type NaturalBranch = Branch<[f64; 2], [f64; 2]>;
 
 /// Both parameters (m, 2), and how the curve ended.
 type Curve<'py> = (Bound<'py, PyArray2<f64>>, (&'static str, &'static str));
@@ -63,28 +62,6 @@ pub struct TracedBranch {
     ended: [Ended; 2],
     origin: Option<usize>,
     mirrored: bool,
-}
-
-/// Branches of equilibria and their special points: kind, branch, point, parameter, multiplicity.
-#[pyclass(frozen, module = "ribbonrs._core")]
-pub struct Trace {
-    branches: Vec<Py<TracedBranch>>,
-    special: Vec<SpecialPoint>,
-}
-
-#[pymethods]
-impl Trace {
-    /// The branches, in the order in which they were found.
-    #[getter]
-    fn branches(&self, py: Python<'_>) -> Vec<Py<TracedBranch>> {
-        self.branches.iter().map(|branch| branch.clone_ref(py)).collect()
-    }
-
-    /// Kind, branch, place among its points, parameter, multiplicity.
-    #[getter]
-    fn special_points(&self) -> Vec<SpecialPoint> {
-        self.special.clone()
-    }
 }
 
 #[pymethods]
@@ -250,6 +227,43 @@ impl TracedBranch {
 }
 
 impl TracedBranch {
+    /// A branch of a ribbon that is held, `origin` the number of the special point that it leaves.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    pub fn held(
+        equations: &Arc<Mutex<Held>>,
+        branch: HeldBranch,
+        degree: usize,
+        asked: &Asked<'_>,
+        origin: Option<usize>,
+    ) -> Result<Self, InvalidInput> {
+        let Branch { points, ended, mirrored, .. } = branch;
+        let span = asked.span;
+        let rows = points.iter().map(|point| held_row(&mut lock(equations), point, span, degree));
+        let rows = asked.exactly(rows.collect::<Result<_, _>>()?);
+        let points = Points::Held(Arc::clone(equations), points);
+        Ok(Self { span, degree, points, rows, ended, origin, mirrored })
+    }
+
+    /// The same of natural shapes.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    pub fn natural(
+        equations: &Arc<Mutex<Natural>>,
+        branch: NaturalBranch,
+        asked: &Asked<'_>,
+        origin: Option<usize>,
+    ) -> Result<Self, InvalidInput> {
+        let Branch { points, ended, mirrored, .. } = branch;
+        let span = asked.span;
+        let rows = points.iter().map(|point| natural_row(&mut lock(equations), point, span));
+        let rows = asked.exactly(rows.collect::<Result<_, _>>()?);
+        let points = Points::Natural(Arc::clone(equations), points);
+        Ok(Self { span, degree: 0, points, rows, ended, origin, mirrored })
+    }
+
     fn column<'py>(&self, py: Python<'py>, of: impl Fn(&Row) -> f64) -> Bound<'py, PyArray1<f64>> {
         self.rows.iter().map(of).collect::<Vec<_>>().into_pyarray(py)
     }
@@ -297,10 +311,30 @@ fn solution(
     Ok(BoundarySolution::from(solution))
 }
 
-/// A value that was asked for, where it is one but for rounding.
-fn asked(value: f64, span: [f64; 2], values: &[f64]) -> f64 {
-    let near = |one: &&f64| (**one - value).abs() <= 1e-12 * (span[1] - span[0]);
-    values.iter().find(near).copied().unwrap_or(value)
+/// What a trace was asked for.
+#[derive(Clone, Copy)]
+pub struct Asked<'a> {
+    /// Ends of the range of the parameter.
+    pub span: [f64; 2],
+    /// Its values at which points are to be.
+    pub values: &'a [f64],
+}
+
+impl Asked<'_> {
+    /// The parameter at `t`: where it is a value that was asked for but for rounding, that.
+    pub fn parameter(&self, t: f64) -> f64 {
+        self.exact(parameter(self.span, t))
+    }
+
+    fn exact(&self, value: f64) -> f64 {
+        let near = |one: &&f64| (**one - value).abs() <= 1e-12 * (self.span[1] - self.span[0]);
+        self.values.iter().find(near).copied().unwrap_or(value)
+    }
+
+    fn exactly(&self, mut rows: Vec<Row>) -> Vec<Row> {
+        rows.iter_mut().for_each(|row| row.parameter = self.exact(row.parameter));
+        rows
+    }
 }
 
 fn parameter(span: [f64; 2], t: f64) -> f64 {
@@ -373,163 +407,9 @@ fn held_row(
     })
 }
 
-/// The special points of all branches, in order, and the number of the first of each branch.
-fn specials<S, C>(
-    branches: &[Branch<S, C>],
-    span: [f64; 2],
-    values: &[f64],
-) -> (Vec<SpecialPoint>, Vec<usize>) {
-    let (mut special, mut first) = (Vec::new(), Vec::new());
-    for (i, branch) in branches.iter().enumerate() {
-        first.push(special.len());
-        for one in &branch.special {
-            let t = branch.points[one.place].t;
-            let value = asked(parameter(span, t), span, values);
-            special.push((one.kind.name().to_owned(), i, one.place, value, one.multiplicity));
-        }
-    }
-    (special, first)
-}
-
-fn limits(span: [f64; 2], values: &[f64], steps: usize) -> Limits {
+/// How far and how finely a branch over a span of the parameter is followed.
+pub fn limits(span: [f64; 2], values: &[f64], steps: usize) -> Limits {
     let mut values: Vec<f64> = values.iter().map(|value| (value - span[0]) / (span[1] - span[0])).collect();
     values.sort_by(f64::total_cmp);
     Limits { steps, values, interrupted: Some(interrupted), ..Limits::default() }
-}
-
-fn was_interrupted<E: Equations>(diagram: &Diagram<E>) -> bool {
-    diagram
-        .branches
-        .iter()
-        .flat_map(|branch| &branch.ended)
-        .any(|ended| *ended == Ended::Failed(Failed::Interrupted))
-}
-
-/// Branches of equilibria of a ribbon between two problems: from `start` at `start_value`, and what branches off.
-#[pyfunction]
-#[expect(clippy::too_many_arguments, reason = "what is asked of a trace")]
-pub fn trace(
-    py: Python<'_>,
-    problems: (PyRef<'_, BoundaryProblem>, PyRef<'_, BoundaryProblem>),
-    span: [f64; 2],
-    start: PyRef<'_, BoundarySolution>,
-    start_value: f64,
-    values: Vec<f64>,
-    depth: usize,
-    max_steps: usize,
-    tol: f64,
-    degree: Option<usize>,
-) -> PyResult<Trace> {
-    let degree = checked_degree(degree)?;
-    let family = Family::new(vec![problems.0.problem(), problems.1.problem()])?;
-    let solution = start.solution();
-    let t = (start_value - span[0]) / (span[1] - span[0]);
-    let state = {
-        let (nodes, length) = (solution.nodes(), solution.nodes()[solution.nodes().len() - 1]);
-        let x = solution.iterate().clone();
-        // The stages are those of its own degree.
-        if solution.degree() != degree {
-            let expected = format!("a state of degree {degree}");
-            return Err(InvalidInput::new("start", solution.degree(), &expected).into());
-        }
-        HeldState { nodes: Arc::new(nodes.iter().map(|s| s / length).collect()), x }
-    };
-    let limits = Limits { tolerance: (0.1 * tol).max(1e-14), ..limits(span, &values, max_steps) };
-    let (branches, special) = py
-        .detach(|| {
-            let mut equations = Held::new(family, 0.0, degree, tol);
-            let begun = begin(&mut equations, state, t, &limits);
-            let first = begun.map_err(|failed| {
-                InvalidInput::new("start", start_value, &format!("an equilibrium: {failed}"))
-            })?;
-            let first = if t >= 1.0 { turned(&equations, first) } else { first };
-            let found = diagram(&mut equations, vec![first], depth, &limits);
-            let stopped = was_interrupted(&found);
-            let (special, numbers) = specials(&found.branches, span, &values);
-            let equations = Arc::new(Mutex::new(equations));
-            let branch = |branch: Branch<HeldState, _>| {
-                let rows =
-                    branch.points.iter().map(|point| held_row(&mut lock(&equations), point, span, degree));
-                let mut rows = rows.collect::<Result<Vec<Row>, InvalidInput>>()?;
-                rows.iter_mut().for_each(|row| row.parameter = asked(row.parameter, span, &values));
-                let origin = branch.origin.map(|(number, i)| numbers[number] + i);
-                let points = Points::Held(Arc::clone(&equations), branch.points);
-                let (ended, mirrored) = (branch.ended, branch.mirrored);
-                Ok::<_, InvalidInput>(TracedBranch { span, degree, points, rows, ended, origin, mirrored })
-            };
-            let branches: Vec<_> = found.branches.into_iter().map(branch).collect::<Result<_, _>>()?;
-            if stopped { Ok(None) } else { Ok::<_, InvalidInput>(Some((branches, special))) }
-        })?
-        .unwrap_or_default();
-    py.check_signals()?;
-    let branches = branches.into_iter().map(|branch| Py::new(py, branch)).collect::<PyResult<_>>()?;
-    Ok(Trace { branches, special })
-}
-
-fn turned<E: Equations>(equations: &E, point: Point<E::State, E::Change>) -> Point<E::State, E::Change> {
-    let along =
-        crate::continuation::Direction { x: equations.sum(&[(-1.0, &point.along.x)]), t: -point.along.t };
-    Point { along, ..point }
-}
-
-/// Branches of natural shapes of a uniform ribbon between two laws: through all there are at both ends, and what branches off.
-#[pyfunction]
-pub fn trace_natural(
-    py: Python<'_>,
-    laws: (PyRef<'_, SectionLaw>, PyRef<'_, SectionLaw>),
-    span: [f64; 2],
-    values: Vec<f64>,
-    depth: usize,
-    max_steps: usize,
-) -> PyResult<Trace> {
-    let family = NaturalFamily::new(vec![laws.0.law().spec().clone(), laws.1.law().spec().clone()])?;
-    // Curvatures over the thickness ratio may be large.
-    let limits = Limits { longest: 10.0, ..limits(span, &values, max_steps) };
-    let (branches, special) = py.detach(|| {
-        let mut equations = Natural::new(family.clone());
-        let mut starts = Vec::new();
-        let mut known: Vec<(f64, [f64; 2])> = Vec::new();
-        for t in [0.0, 1.0] {
-            let station = equations.station(t)?;
-            let section = station.section();
-            for shape in natural_shapes(section) {
-                let x = [shape.strain[2] / section.eta(), shape.strain[3] / section.eta()];
-                known.push((t, x));
-                if let Ok(point) = begin(&mut equations, x, t, &limits) {
-                    starts.push(if t == 1.0 { turned(&equations, point) } else { point });
-                }
-            }
-        }
-        let found = diagram(&mut equations, starts, depth, &limits);
-        let (special, numbers) = specials(&found.branches, span, &values);
-        let branch = |branch: Branch<[f64; 2], [f64; 2]>| {
-            let rows = branch.points.iter().map(|point| natural_row(&mut equations, point, span));
-            let mut rows = rows.collect::<Result<Vec<Row>, InvalidInput>>()?;
-            rows.iter_mut().for_each(|row| row.parameter = asked(row.parameter, span, &values));
-            let origin = branch.origin.map(|(number, i)| numbers[number] + i);
-            // An image differs in a sign alone.
-            let image = |point: &NaturalPoint| {
-                known.iter().any(|(t, x)| {
-                    let same = |i: usize| (x[i].abs() - point.x[i].abs()).abs() <= 1e-9 * (1.0 + x[i].abs());
-                    *t == point.t && same(0) && same(1) && (0..2).any(|i| (x[i] - point.x[i]).abs() > 1e-6)
-                })
-            };
-            let mirrored = branch.mirrored || branch.points.iter().any(image);
-            let points = Points::Natural(Arc::new(Mutex::new(Natural::new(family.clone()))), branch.points);
-            Ok::<_, InvalidInput>(TracedBranch {
-                span,
-                degree: 0,
-                points,
-                rows,
-                ended: branch.ended,
-                origin,
-                mirrored,
-            })
-        };
-        let branches: Vec<_> = found.branches.into_iter().map(branch).collect::<Result<_, _>>()?;
-        Ok::<_, InvalidInput>((branches, special))
-    })?;
-    py.check_signals()?;
-    let branches = branches.into_iter().map(|branch| Py::new(py, branch)).collect::<PyResult<_>>()?;
-    Ok(Trace { branches, special })
 }

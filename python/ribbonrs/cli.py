@@ -18,7 +18,6 @@ from pathlib import Path
 
 from rich.console import Console, RenderableType
 
-from .diagram_file import write_table
 from .equilibrium import chosen, equilibria, solve
 from .errors import MISSING, InputError, RibbonError, RibbonWarning
 from .outputs import Output, write_all
@@ -94,7 +93,7 @@ def _trace(path: Path) -> int:
         quantity = job.trace.quantity
         writers: dict[str, Callable[[Path], object]] = {
             "diagram": lambda path: diagram.plot(quantity, path),
-            "table": lambda path: write_table(diagram, path),
+            "table": diagram.to_csv,
             "branches": diagram.save,
         }
         write_all(job.traced, lambda kind, path: writers[kind](path))

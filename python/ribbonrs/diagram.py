@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from importlib import import_module
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
+from . import table
 from .branch import Branch, SpecialPoint
 from .check import number
-from .errors import RibbonError
 from .scene import Scene
 from .state import State
 
@@ -109,11 +108,11 @@ class Diagram:
         RibbonError
             If pandas is not installed.
         """
-        try:
-            pandas = import_module("pandas")
-        except ImportError:
-            raise RibbonError("to_dataframe needs pandas, which is not installed; table() does not") from None
-        return pandas.DataFrame(self.table())
+        return table.dataframe(self.table())
+
+    def to_csv(self, path: str | PathLike[str]) -> None:
+        """Write `table` as comma-separated values, numbers with all their digits."""
+        table.write(self.table(), path)
 
     def plot(self, quantity: str = "K3", path: str | PathLike[str] | None = None) -> Figure:
         """Draw a quantity of the branches over the parameter; write the figure to `path` if given.

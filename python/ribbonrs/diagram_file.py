@@ -1,37 +1,25 @@
-"""Files of a bifurcation diagram: everything at the points of its branches, in one .npz of numpy.
-
-What has no array is JSON text: nothing is pickled, and any program that reads .npz can use it.
-"""
+"""Files of a bifurcation diagram: everything at the points of its branches."""
 
 from __future__ import annotations
 
-import csv
 import json
-import os
-import zipfile
-import zlib
 from functools import partial
-from importlib.metadata import version
 from os import PathLike
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from . import _core
+from . import _core, archive
+from .archive import Format
 from .branch import ARRAYS, Branch, SpecialPoint
 from .diagram import Diagram
-from .errors import InputError
-from .files import replacing
 from .parameter import Parameter, parameter_of
 from .record import record_of, scene_of
 from .traced import Kept, Maker
 
-__all__ = ["load", "save", "write_table"]
+__all__ = ["load", "save"]
 
-FORMAT = "ribbonrs diagram"
-VERSION = 1
-SUFFIX = ".npz"
+FORMAT = Format("ribbonrs diagram", 1, "Diagram.save")
 
 UNITS = (
     "branch<i>_*: one row for each point of branch i. parameter: in the units of the scene (thickness and "
@@ -43,87 +31,31 @@ UNITS = (
     "point, name, reason."
 )
 
-DAMAGED = (
-    ValueError,  # of which InputError is one
-    LookupError,
-    TypeError,
-    AttributeError,
-    EOFError,
-    ArithmeticError,
-    RuntimeError,
-    zipfile.BadZipFile,
-    zlib.error,
-)
-"""What reading something else, or a part of a file, ends with."""
-
 RECORD = ("ended", "reason", "origin", "mirrored")
 """What else a branch has."""
 
 
 def save(diagram: Diagram, path: str | PathLike[str]) -> None:
-    """Write `diagram` to `path`, which ends in .npz.
-
-    An existing file is replaced as a whole; when writing fails it stays as it was.
-
-    Raises
-    ------
-    InputError
-        No file name, another suffix, or a directory that does not exist.
-    OSError
-        The file cannot be written.
-    """
-    expected = f"a file name ending in {SUFFIX}"
-    if not isinstance(path, str | PathLike):
-        raise InputError("path", path, expected)
-    if Path(path).suffix.lower() != SUFFIX:
-        raise InputError("path", str(path), expected)
-    if not os.path.isdir(Path(path).parent):
-        raise InputError("path", str(path), "a file in a directory that exists")
+    """Write `diagram` to `path`, which ends in .npz; see `ribbonrs.archive.save`."""
     contents: dict[str, Any] = {
-        "format": FORMAT,
-        "version": VERSION,
         "units": UNITS,
         "scene": json.dumps(record_of(diagram.scene)),
         "parameter": diagram.parameter,
         "span": np.array(diagram.span),
         "special": json.dumps([_special_record(point) for point in diagram.special_points]),
         "branches": len(diagram.branches),
-        "ribbonrs_version": version("ribbonrs"),
     }
     for branch in diagram.branches:
         prefix = f"branch{branch.number}_"
         contents |= {prefix + name: getattr(branch, name) for name in ARRAYS}
         contents[prefix + "record"] = json.dumps(_branch_record(branch))
         contents[prefix + "solutions"] = json.dumps(_solutions(branch))
-    with replacing(path) as temporary, temporary.open("wb") as file:
-        np.savez_compressed(file, **contents)
+    archive.save(FORMAT, path, contents)
 
 
 def load(path: str | PathLike[str]) -> Diagram:
     """Return the diagram in a file; see `ribbonrs.load_diagram`."""
-    if not isinstance(path, str | PathLike):
-        raise InputError("path", path, "the name of a file that Diagram.save wrote")
-    name = os.fspath(path)
-    try:
-        with open(path, "rb") as raw, np.load(raw, allow_pickle=False) as file:
-            written = str(file.get("format")), int(file.get("version", 0))
-            if written == (FORMAT, VERSION):
-                return _diagram(file)
-    except OSError as error:
-        raise InputError("path", name, f"a readable file, not: {error.strerror or error}") from None
-    except DAMAGED as error:
-        reason = " ".join(str(error).split())[:80] or type(error).__name__
-        raise InputError("path", name, f"a whole file that Diagram.save wrote, not: {reason}") from None
-    raise InputError("path", name, f"a {FORMAT} of version {VERSION}, which Diagram.save wrote")
-
-
-def write_table(diagram: Diagram, path: str | PathLike[str]) -> None:
-    """Write `Diagram.table` as comma-separated values, numbers with all their digits."""
-    columns = diagram.table()
-    with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(columns)
-        writer.writerows(zip(*columns.values(), strict=True))
+    return archive.load(FORMAT, path, _diagram)
 
 
 def _diagram(file: Any) -> Diagram:

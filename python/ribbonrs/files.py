@@ -7,7 +7,7 @@ import json
 import math
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
 from importlib.metadata import version
@@ -26,7 +26,7 @@ from .record import record_of
 if TYPE_CHECKING:
     from .state import State
 
-__all__ = ["WRITERS", "replacing", "save"]
+__all__ = ["WRITERS", "check_path", "replacing", "save"]
 
 NX = 41
 """Points across the width in every file."""
@@ -62,16 +62,22 @@ def save(state: State, path: str | PathLike[str]) -> None:
     OSError
         The file cannot be written.
     """
-    expected = "a file name ending in " + " or ".join(WRITERS)
+    suffix = check_path(path, WRITERS)
+    with replacing(path) as temporary:
+        WRITERS[suffix](state, temporary)
+
+
+def check_path(path: object, suffixes: Collection[str]) -> str:
+    """Return the suffix of a file name that can be written."""
+    expected = "a file name ending in " + " or ".join(suffixes)
     if not isinstance(path, str | PathLike):
         raise InputError("path", path, expected)
     suffix = Path(path).suffix.lower()
-    if suffix not in WRITERS:
+    if suffix not in suffixes:
         raise InputError("path", str(path), expected)
     if not os.path.isdir(Path(path).parent):
         raise InputError("path", str(path), "a file in a directory that exists")
-    with replacing(path) as temporary:
-        WRITERS[suffix](state, temporary)
+    return suffix
 
 
 @contextmanager

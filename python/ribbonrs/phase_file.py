@@ -1,32 +1,23 @@
-"""Files of a phase diagram: all of it in one .npz of numpy, or its points as comma-separated values.
-
-What has no array is JSON text: nothing is pickled, and any program that reads .npz can use it.
-"""
+"""Files of a phase diagram: all of it, its lines included."""
 
 from __future__ import annotations
 
-import csv
 import json
-import os
 from collections.abc import Sequence
-from importlib.metadata import version
 from os import PathLike
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from .diagram_file import DAMAGED
-from .errors import InputError
-from .files import replacing
+from . import archive
+from .archive import Format
 from .parameter import parameter_of
 from .phasediagram import PHASES, Axis, Boundary, PhaseDiagram
 from .record import record_of, scene_of
 
-__all__ = ["load", "save", "write_table"]
+__all__ = ["load", "save"]
 
-FORMAT = "ribbonrs phase diagram"
-VERSION = 1
+FORMAT = Format("ribbonrs phase diagram", 1, "PhaseDiagram.save")
 
 ARRAYS = ("phase", "stable", "stable_count", "energy", "K2", "K3", "resolved", "done")
 """Fields of a diagram of shape (ny, nx) or (ny, nx, 4)."""
@@ -44,21 +35,8 @@ UNITS = (
 
 
 def save(diagram: PhaseDiagram, path: str | PathLike[str]) -> None:
-    """Write `diagram` to `path`, which ends in .npz.
-
-    An existing file is replaced as a whole; when writing fails it stays as it was.
-
-    Raises
-    ------
-    InputError
-        No file name, another suffix, or a directory that does not exist.
-    OSError
-        The file cannot be written.
-    """
-    _check_path(path, ".npz")
+    """Write `diagram` to `path`, which ends in .npz; see `ribbonrs.archive.save`."""
     contents: dict[str, Any] = {
-        "format": FORMAT,
-        "version": VERSION,
         "units": UNITS,
         "scene": json.dumps(record_of(diagram.scene)),
         "x": diagram.x.name,
@@ -71,56 +49,13 @@ def save(diagram: PhaseDiagram, path: str | PathLike[str]) -> None:
         "reasons": json.dumps([[*place, reason] for place, reason in diagram.reasons.items()]),
         "tol": diagram.tol,
         "interrupted": diagram.interrupted,
-        "ribbonrs_version": version("ribbonrs"),
     }
-    with replacing(path) as temporary, temporary.open("wb") as file:
-        np.savez_compressed(file, **contents)
+    archive.save(FORMAT, path, contents)
 
 
 def load(path: str | PathLike[str]) -> PhaseDiagram:
     """Return the diagram in a file; see `ribbonrs.load_phase_diagram`."""
-    if not isinstance(path, str | PathLike):
-        raise InputError("path", path, "the name of a file that PhaseDiagram.save wrote")
-    name = os.fspath(path)
-    try:
-        with open(path, "rb") as raw, np.load(raw, allow_pickle=False) as file:
-            written = str(file.get("format")), int(file.get("version", 0))
-            if written == (FORMAT, VERSION):
-                return _diagram(file)
-    except OSError as error:
-        raise InputError("path", name, f"a readable file, not: {error.strerror or error}") from None
-    except DAMAGED as error:
-        reason = " ".join(str(error).split())[:80] or type(error).__name__
-        raise InputError("path", name, f"a whole file that PhaseDiagram.save wrote, not: {reason}") from None
-    raise InputError("path", name, f"a {FORMAT} of version {VERSION}, which PhaseDiagram.save wrote")
-
-
-def write_table(diagram: PhaseDiagram, path: str | PathLike[str]) -> None:
-    """Write `PhaseDiagram.table` as comma-separated values, numbers with all their digits.
-
-    Raises
-    ------
-    InputError
-        No file name, another suffix than .csv, or a directory that does not exist.
-    OSError
-        The file cannot be written.
-    """
-    _check_path(path, ".csv")
-    columns = diagram.table()
-    with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(columns)
-        writer.writerows(zip(*columns.values(), strict=True))
-
-
-def _check_path(path: object, suffix: str) -> None:
-    expected = f"a file name ending in {suffix}"
-    if not isinstance(path, str | PathLike):
-        raise InputError("path", path, expected)
-    if Path(path).suffix.lower() != suffix:
-        raise InputError("path", str(path), expected)
-    if not os.path.isdir(Path(path).parent):
-        raise InputError("path", str(path), "a file in a directory that exists")
+    return archive.load(FORMAT, path, _diagram)
 
 
 def _lines(prefix: str, lines: Sequence[Boundary]) -> dict[str, Any]:

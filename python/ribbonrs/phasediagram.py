@@ -6,17 +6,16 @@ import math
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from importlib import import_module
 from os import PathLike
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core
+from . import _core, table
 from .arrays import Array, count
 from .check import number, numbers
-from .errors import InputError, RibbonError, RibbonWarning
+from .errors import InputError, RibbonWarning
 from .parameter import Parameter, parameter_of
 from .scene import GROWTH_WARNING, Scene
 from .telling import Telling
@@ -209,17 +208,11 @@ class PhaseDiagram:
         RibbonError
             If pandas is not installed.
         """
-        try:
-            pandas = import_module("pandas")
-        except ImportError:
-            raise RibbonError("to_dataframe needs pandas, which is not installed; table() does not") from None
-        return pandas.DataFrame(self.table())
+        return table.dataframe(self.table())
 
     def to_csv(self, path: str | PathLike[str]) -> None:
         """Write `table` as comma-separated values, numbers with all their digits."""
-        from .phase_file import write_table
-
-        write_table(self, path)
+        table.write(self.table(), path)
 
     def plot(self, path: str | PathLike[str] | None = None) -> Figure:
         """Draw the regions and their boundaries; write the figure to `path` if given.

@@ -24,18 +24,6 @@ chiral = 0.04
 """
 
 
-@pytest.fixture
-def scene(tmp_path, monkeypatch):
-    """Write a scene into an empty current directory and return its name."""
-    monkeypatch.chdir(tmp_path)
-
-    def write(text):
-        Path("scene.toml").write_text(text)
-        return "scene.toml"
-
-    return write
-
-
 def run_process(*arguments, **options):
     """Run the command line as a process of its own."""
     command = [sys.executable, "-m", "ribbonrs", *arguments]

@@ -43,18 +43,6 @@ def core(monkeypatch):
     return monkeypatch
 
 
-@pytest.fixture
-def scene(tmp_path, monkeypatch):
-    """Write a scene into an empty current directory and return its name."""
-    monkeypatch.chdir(tmp_path)
-
-    def write(text):
-        Path("scene.toml").write_text(text)
-        return "scene.toml"
-
-    return write
-
-
 def files():
     return sorted(path.name for path in Path().iterdir() if path.name != "scene.toml")
 

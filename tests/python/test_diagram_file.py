@@ -11,7 +11,6 @@ from fake_core import CLAMPED, EDGE, FakeTrace, edge_trace, pressed_trace
 from refusal import refuses
 from ribbonrs import _core
 from ribbonrs.branch import ARRAYS
-from ribbonrs.diagram_file import write_table
 
 
 @pytest.fixture
@@ -150,7 +149,7 @@ def test_a_failed_save_leaves_the_old_file(natural, tmp_path, monkeypatch):
 
 
 def test_table_as_csv(natural, tmp_path):
-    write_table(natural, tmp_path / "a.csv")
+    natural.to_csv(tmp_path / "a.csv")
     with Path(tmp_path / "a.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
     table = natural.table()

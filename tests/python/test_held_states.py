@@ -346,17 +346,6 @@ data = "leaf.npz"
 """
 
 
-@pytest.fixture
-def scene(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-
-    def write(text):
-        Path("scene.toml").write_text(text)
-        return "scene.toml"
-
-    return write
-
-
 def test_run_shows_loads_reactions_and_errors(scene, capsys):
     assert main(["run", scene(SCENE)]) == 0
     screen, errors = capsys.readouterr()

@@ -109,7 +109,7 @@ def test_a_dataframe_needs_pandas(diagram, monkeypatch):
     def missing(name):
         raise ImportError(name)
 
-    monkeypatch.setattr("ribbonrs.phasediagram.import_module", missing)
+    monkeypatch.setattr("ribbonrs.table.import_module", missing)
     with pytest.raises(rb.RibbonError, match="needs pandas"):
         diagram.to_dataframe()
 
@@ -128,17 +128,6 @@ def test_the_figure_has_regions_lines_and_names(diagram, tmp_path):
         assert len(inside) == 1
     with pytest.raises(rb.InputError, match="path"):
         diagram.plot(tmp_path / "a.what")
-
-
-@pytest.fixture
-def scene(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-
-    def write(text):
-        Path("scene.toml").write_text(text)
-        return "scene.toml"
-
-    return write
 
 
 def files():

@@ -68,8 +68,6 @@ def equilibrium(
         solution = problem_of(scene).solve(tol, degree, start)
     except ValueError as error:
         raise InputError("scene", scene, f"one that can be solved, not: {error}") from None
-    if solution.status == "interrupted":
-        raise KeyboardInterrupt
     if not solution.converged:
         raise _failure(scene, solution, tol, n)
     if solution.status == "rounding_limited":

@@ -61,6 +61,21 @@ impl Family {
         if loaded { Layout::Moment } else { Layout::Constant }
     }
 
+    /// The length at these parameters.
+    #[must_use]
+    pub fn length(&self, at: [f64; 2]) -> f64 {
+        let weights = corner_weights(self.corners.len(), at);
+        let others = weights.iter().zip(&self.corners[1..]).map(|(w, other)| (*w, other.length));
+        blend(self.corners[0].length, others)
+    }
+
+    /// Whether all are rods that bend in all directions alike.
+    #[must_use]
+    pub fn isotropic(&self) -> bool {
+        let alike = |law: &Law| matches!(law, Law::Rod(rod) if rod.compliance[1] == rod.compliance[2]);
+        self.corners.iter().all(|corner| alike(&corner.law))
+    }
+
     /// The problem at these parameters, of which the second counts if there are two.
     ///
     /// # Errors
@@ -96,8 +111,7 @@ impl Family {
         let line = LineLoad { force: along(|line| &line.force)?, moment: along(|line| &line.moment)? };
         let law = if self.law_varies { Arc::new(self.law(&weights)?) } else { Arc::clone(&first.law) };
         let points = (0..first.points.len()).map(point).collect();
-        let length = between(&|problem| problem.length);
-        Ok(Arc::new(Problem::new(law, length, [end(0), end(1)], points, line)?))
+        Ok(Arc::new(Problem::new(law, self.length(at), [end(0), end(1)], points, line)?))
     }
 
     fn law(&self, weights: &[f64]) -> Result<Law, InvalidInput> {

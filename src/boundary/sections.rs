@@ -2,6 +2,12 @@
 
 use nalgebra::Matrix4;
 
+use super::ends::At;
+use super::iterate::Iterate;
+use super::law::{Law, Response};
+use super::mesh::Mesh;
+use super::solution::SectionState;
+use super::step::pointwise;
 use crate::section::Strain;
 
 /// What the tangent stiffnesses of sections say of their stability.
@@ -45,4 +51,52 @@ impl Sections {
         self.index = self.index.max(negative);
         self.least = if determinant < self.least { determinant } else { self.least };
     }
+
+    /// The same with the sections at nodes taken into account: the stages alone would miss what happens first at an end, under a point
+    /// load, or where growth jumps. A section there that is refused is left out.
+    #[must_use]
+    pub fn with_nodes(mut self, mesh: &Mesh, x: &Iterate) -> Self {
+        let law = &mesh.problem.law;
+        // Sections that all are the same are so at the nodes.
+        let alike = || !law.varies() && x.strains.iter().all(|e| (e - x.strains[0]).amax() < SAME);
+        if !matches!(**law, Law::Relaxed(_)) || alike() {
+            return self;
+        }
+        for node in 0..mesh.nodes.len() {
+            for (response, strain) in sections_at(mesh, x, node) {
+                self.add(&response.value(&strain).1, &response.compliance);
+            }
+        }
+        self
+    }
 }
+
+/// The law and the strains of the sections at a node, from the resultants there: on both sides where there is a point load or the law
+/// is not smooth.
+pub fn sections_at(mesh: &Mesh, x: &Iterate, node: usize) -> Vec<(Response, Strain)> {
+    let (problem, s) = (&mesh.problem, mesh.nodes[node]);
+    let right = x.nodes[node];
+    let (jump, couple) = mesh.points[node].unwrap_or_default();
+    let left = At {
+        force: right.force + jump,
+        about_origin: right.about_origin + right.position.cross(&jump) + couple,
+        ..right
+    };
+    let last = mesh.elements();
+    let mut sides = Vec::new();
+    if node < last {
+        sides.push((s, right, x.strain(mesh, node, 0.0)));
+    }
+    if node == last || node > 0 && (mesh.points[node].is_some() || problem.law.breaks().contains(&s)) {
+        let within = if node == last { s } else { s.next_down() };
+        sides.push((within, left, x.strain(mesh, node - 1, 1.0)));
+    }
+    let section = |(s, at, guess): (f64, At, Strain)| {
+        let response = problem.law.at(s).ok()?;
+        Some((response.clone(), pointwise(&response, &SectionState::resultants(&at), guess)))
+    };
+    sides.into_iter().filter_map(section).collect()
+}
+
+/// Difference of strains that is rounding.
+const SAME: f64 = 1e-14;

@@ -13,6 +13,7 @@ use super::known::Guess;
 use super::mesh::Mesh;
 use super::problem::Problem;
 use super::report::{Report, Status};
+use super::sections::sections_at;
 use super::solve::{Settings, goal, solve};
 use super::step::{Stepper, pointwise};
 use super::system::System;
@@ -62,7 +63,7 @@ impl SectionState {
     }
 
     /// `(n3, m1, m2, m3)`.
-    fn resultants(at: &At) -> Strain {
+    pub(super) fn resultants(at: &At) -> Strain {
         let frame = directors(&at.rotation);
         let m = frame.tr_mul(&at.moment());
         Strain::new(frame.column(2).dot(&at.force), m.x, m.y, m.z)
@@ -167,11 +168,7 @@ impl Solution {
         let mesh = Mesh::new(&problem, nodes.clone(), degree)?;
         let Energies { elastic: energy, load: load_potential } = energies(&mesh, &x)?;
         let mut section_index = 0;
-        for (at, (s, i)) in x.nodes.iter().zip(mesh.nodes.iter().zip(0_usize..)) {
-            let i = i.min(mesh.elements() - 1);
-            let response = problem.law.at(*s)?;
-            let guess = x.strain(&mesh, i, (s - mesh.nodes[i]) / mesh.length(i));
-            let strain = pointwise(&response, &SectionState::resultants(at), guess);
+        for (response, strain) in (0..count).flat_map(|node| sections_at(&mesh, &x, node)) {
             section_index = section_index.max(response.index(&strain));
         }
         for i in 0..mesh.elements() {

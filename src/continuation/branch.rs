@@ -1,7 +1,7 @@
 //! A branch, from a point of it as far as it is asked for.
 
-use super::correct::{Corrected, Guess, Point, PointOf, corrected};
-use super::equations::{Direction, Equations, Failed, dot, scaled};
+use super::correct::{Corrected, Guess, Point, PointOf, corrected, reversed};
+use super::equations::{Direction, Equations, Failed, dot};
 use super::locate::{Found, special_points};
 use super::predict::weights;
 use super::switch::{across, stepped};
@@ -354,7 +354,7 @@ fn restart<E: Equations>(
     let point = &branch.points[fine];
     let (x, along) = equations.remeshed(&point.x, &point.along.x, like, point.t)?;
     let along = Direction { x: along, t: point.along.t };
-    // What the branch begins with, or was asked for, is at a value of the parameter, which it keeps.
+    // What the branch begins with is at a value of the parameter, which it keeps, unless that is at a fold.
     let kept = fine == 0 && along.t.abs() > 0.1;
     let across = if kept { None } else { Some(&along) };
     let guess = Guess { x, t: point.t, across, sense: Some(&along) };
@@ -432,7 +432,7 @@ pub fn begin<E: Equations>(
     point.t = t;
     // Toward greater parameters.
     if point.along.t < 0.0 {
-        point.along = scaled(equations, &point.along, -1.0);
+        point = reversed(equations, point);
     }
     Ok(point)
 }

@@ -22,6 +22,16 @@ pub type PointOf<E> = Point<<E as Equations>::State, <E as Equations>::Change>;
 /// The direction of a problem.
 pub type DirectionOf<E> = Direction<<E as Equations>::Change>;
 
+/// The point on its branch the other way.
+pub fn reversed<E: Equations>(equations: &E, mut point: PointOf<E>) -> PointOf<E> {
+    point.along = scaled(equations, &point.along, -1.0);
+    // With the plane that it is the determinant with.
+    if let Some(determinant) = &mut point.stability.determinant {
+        determinant.sign = -determinant.sign;
+    }
+    point
+}
+
 /// Where a correction starts, and across what it goes.
 pub struct Guess<'a, E: Equations> {
     /// State.
@@ -46,7 +56,8 @@ pub struct Corrected<E: Equations> {
 const ITERATIONS: usize = 10;
 /// After a correction below this, one more with the same factors is tried.
 const SMALL: f64 = 1e-2;
-/// Tangent and stability are exact enough if the last correction before them was below this.
+/// Tangent and stability are exact enough if the last correction before them was below this, or if Newton's method has not come as
+/// near in half of its steps: then rounding keeps it.
 const EXACT: f64 = 1e-10;
 /// Below this corrections that no longer shrink are rounding, which a branch point near by amplifies along the other branch.
 const ROUNDING: [f64; 2] = [1e-8, 1e-7];
@@ -107,10 +118,15 @@ pub fn corrected<E: Equations>(
         {
             let x = equations.settled(x, t)?;
             let place = equations.settled(linearised.0, linearised.1)?;
-            let stability = equations.stability(&place, linearised.1);
+            let mut stability = equations.stability(&place, linearised.1);
             let along = unit(equations, &line);
             let backward = sense.is_some_and(|sense| dot(equations, sense, &along) < 0.0);
             let along = scaled(equations, &along, if backward { -1.0 } else { 1.0 });
+            // The determinant is that with the plane as its last row: let it face along the branch.
+            let facing = across.map_or(along.t, |across| dot(equations, across, &along));
+            if let Some(determinant) = &mut stability.determinant {
+                determinant.sign *= facing.signum();
+            }
             return Ok(Corrected { point: Point { x, t, s: 0.0, along, stability }, first });
         }
     }

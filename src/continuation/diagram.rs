@@ -1,8 +1,8 @@
 //! All branches that hang together with those that are known.
 
-use super::branch::{BranchOf, Ended, Limits, SpecialKind, follow};
-use super::correct::PointOf;
-use super::equations::{Equations, scaled};
+use super::branch::{BranchOf, Ended, Limits, Special, SpecialKind, follow};
+use super::correct::{PointOf, reversed};
+use super::equations::Equations;
 use super::locate::at_value;
 use super::switch::{Leaving, alike, leaving, leaving_with_section};
 
@@ -33,7 +33,8 @@ pub fn diagram<E: Equations>(
             continue;
         }
         let first = branches.len();
-        let branch = both_ways(equations, start, limits, &met);
+        let mut branch = both_ways(equations, start, limits, &met);
+        mark_values::<E>(&mut branch, limits);
         note(equations, &branch, &mut met);
         branches.push(branch);
         let mut level = first..branches.len();
@@ -60,8 +61,8 @@ fn both_ways<E: Equations>(
     if !inside || ahead.ended[1] == Ended::Closed {
         return ahead;
     }
-    let turned = PointOf::<E> { along: scaled(equations, &start.along, -1.0), ..start };
-    let back = walked(equations, turned, limits, met);
+    let start = reversed(equations, start);
+    let back = walked(equations, start, limits, met);
     joined(equations, back, ahead)
 }
 
@@ -95,10 +96,23 @@ fn switch<E: Equations>(
             branch.special.iter_mut().for_each(|special| special.place += 1);
             branch.ended[0] = Ended::Switched;
             (branch.origin, branch.mirrored) = (Some((number, i)), mirrored);
+            mark_values::<E>(&mut branch, limits);
             note(equations, &branch, met);
             branches.push(branch);
         }
     }
+}
+
+/// Marks what already are points of a branch at values asked for, as its ends may be; where it leaves another that is marked there.
+fn mark_values<E: Equations>(branch: &mut BranchOf<E>, limits: &Limits) {
+    let own = usize::from(branch.origin.is_some());
+    for (place, point) in branch.points.iter().enumerate().skip(own) {
+        let known = |special: &Special| special.place == place && special.kind == SpecialKind::Value;
+        if limits.values.contains(&point.t) && !branch.special.iter().any(known) {
+            branch.special.push(Special { kind: SpecialKind::Value, place, multiplicity: 1 });
+        }
+    }
+    branch.special.sort_by_key(|special| special.place);
 }
 
 /// What tells a branch point from others.
@@ -178,7 +192,7 @@ fn joined<E: Equations>(equations: &E, back: BranchOf<E>, ahead: BranchOf<E>) ->
         .into_iter()
         .skip(1)
         .rev()
-        .map(|point| PointOf::<E> { along: scaled(equations, &point.along, -1.0), s: -point.s, ..point })
+        .map(|point| PointOf::<E> { s: -point.s, ..reversed(equations, point) })
         .collect();
     points.extend(ahead.points);
     let mut special: Vec<_> = back

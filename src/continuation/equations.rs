@@ -25,16 +25,9 @@ pub struct Stability {
     pub index: Option<usize>,
     /// Motions that change nothing, all along a branch.
     pub free_motions: usize,
-    /// Determinant of the equations with the parameter, which vanishes at branch points; `None` if it is not known.
+    /// Determinant of the equations with the parameter and a plane that faces along the branch: its sign changes at branch points of
+    /// odd multiplicity, and not at folds; `None` if it is not known.
     pub determinant: Option<Determinant>,
-}
-
-impl Stability {
-    /// Whether the equilibrium is stable, if that is known.
-    #[must_use]
-    pub fn is_stable(&self) -> Option<bool> {
-        if self.section_index > 0 { Some(false) } else { self.index.map(|index| index == 0) }
-    }
 }
 
 /// Why a step cannot be made.

@@ -124,12 +124,16 @@ impl Held {
         match &self.at {
             Some((known, problem)) if *known == t => Ok(Arc::clone(problem)),
             _ => {
-                let problem =
-                    self.family.at(if self.exchanged { [self.other, t] } else { [t, self.other] })?;
+                let problem = self.family.at(self.in_order(t))?;
                 self.at = Some((t, Arc::clone(&problem)));
                 Ok(problem)
             }
         }
+    }
+
+    /// Both parameters, in the order of the family.
+    fn in_order(&self, t: f64) -> [f64; 2] {
+        if self.exchanged { [self.other, t] } else { [t, self.other] }
     }
 
     /// Ends of elements at a parameter, where the ribbon has this length.
@@ -269,7 +273,7 @@ impl Equations for Held {
 
     fn stability(&mut self, x: &HeldState, _: f64) -> Stability {
         let Some(system) = &self.system else { return Stability::default() };
-        let sections = system.sections;
+        let sections = system.sections.with_nodes(&system.mesh, &x.x);
         let free = self.free.len();
         let springs: Vec<Spring> =
             self.free.iter().filter_map(|motion| Spring::against(&motion.x.nodes)).collect();
@@ -283,8 +287,8 @@ impl Equations for Held {
         Stability { section_index: sections.index, section, index, free_motions: free, determinant }
     }
 
-    fn coordinates(&mut self, x: &HeldState, _: f64) -> Vec<f64> {
-        let length = self.system.as_ref().map_or(1.0, |system| system.mesh.problem.length);
+    fn coordinates(&mut self, x: &HeldState, t: f64) -> Vec<f64> {
+        let length = self.family.length(self.in_order(t));
         // Places of a few sections, joined by lines.
         let place = |part: f64| {
             let i = x.nodes.partition_point(|&node| node <= part).clamp(1, x.nodes.len() - 1);
@@ -294,9 +298,9 @@ impl Equations for Held {
         [0.25, 0.5, 0.75, 1.0].into_iter().flat_map(|part| place(part).data.0[0]).collect()
     }
 
-    fn invariants(&mut self, x: &HeldState, _: f64) -> Vec<f64> {
+    fn invariants(&mut self, x: &HeldState, t: f64) -> Vec<f64> {
         let Some(system) = &self.system else { return Vec::new() };
-        let length = system.mesh.problem.length;
+        let length = self.family.length(self.in_order(t));
         let weights = &system.mesh.gauss.weights;
         let mut sums = vec![0.0; 4];
         for (i, pair) in x.nodes.windows(2).enumerate() {
@@ -309,8 +313,7 @@ impl Equations for Held {
             }
         }
         // A rod that is the same in all directions may be turned by any angle.
-        let compliance = system.mesh.problem.law.at(0.0).map(|response| response.compliance);
-        if compliance.is_ok_and(|c| c[1] == c[2]) {
+        if self.family.isotropic() {
             sums[1] += sums[2];
             sums[2] = 0.0;
         }

@@ -1,7 +1,7 @@
 //! Special points between two points of a branch.
 
 use super::branch::{Limits, SpecialKind};
-use super::correct::{DirectionOf, Guess, PointOf, corrected};
+use super::correct::{Corrected, DirectionOf, Guess, PointOf, corrected};
 use super::equations::{Direction, Equations, Failed, Stability, dot, unit};
 
 /// A special point that was found.
@@ -35,11 +35,10 @@ pub fn special_points<E: Equations>(
         let mut ends: Vec<&PointOf<E>> = vec![a];
         ends.extend(found.iter().map(|special| &special.point));
         ends.push(b);
-        let met: Vec<_> = ends
-            .windows(2)
-            .filter(|pair| (pair[0].t - value) * (pair[1].t - value) < 0.0)
-            .filter_map(|pair| at_value(equations, pair[0], pair[1], value))
-            .collect();
+        let mut met = Vec::new();
+        for pair in ends.windows(2).filter(|pair| (pair[0].t - value) * (pair[1].t - value) < 0.0) {
+            met.push(at_value(equations, pair[0], pair[1], value).ok_or(Failed::Jumped)?);
+        }
         found.extend(met.into_iter().map(|point| Found { point, kind: SpecialKind::Value, multiplicity: 1 }));
         found.sort_by(|a, b| a.point.s.total_cmp(&b.point.s));
     }
@@ -64,8 +63,9 @@ fn between<E: Equations>(
         match (turns, change) {
             (true, None | Some(1 | -1)) => (SpecialKind::Fold, 1),
             (true, Some(0)) => (SpecialKind::BranchPoint, 1),
-            // Without a potential the sign of the determinant tells of an odd number.
-            (false, None) if sign_changes(a, b) => (SpecialKind::BranchPoint, 1),
+            // Without a potential the sign of the determinant tells of an odd number; beyond a section instability it changes with
+            // every section.
+            (false, None) if unstable == [0, 0] && sign_changes(a, b) => (SpecialKind::BranchPoint, 1),
             (false, None | Some(0)) => return Ok(()),
             (_, Some(change)) => (SpecialKind::BranchPoint, change.unsigned_abs()),
         }
@@ -176,16 +176,23 @@ pub fn at_value<E: Equations>(
         return Some(end.clone());
     }
     let (mut a, mut b) = (a.clone(), b.clone());
-    // Near enough for Newton's method at fixed t.
-    for _ in 0..4 {
-        let part = (value - a.t) / (b.t - a.t);
+    let mut by_newton = true;
+    for trial in 0..MOST {
+        // By a secant, then by halves: next to a fold the parameter is not linear.
+        let part = if trial < 4 { (value - a.t) / (b.t - a.t) } else { 0.5 };
         let middle = at(equations, &a, &b, part * (b.s - a.s))?;
-        let near = (middle.t - value).abs() < 0.1;
-        if near || middle.t == value {
-            let guess = Guess { x: middle.x.clone(), t: value, across: None, sense: Some(&a.along) };
-            let mut point = corrected(equations, guess, 1e-11, true).ok()?.point;
-            (point.t, point.s) = (value, middle.s);
-            return Some(point);
+        // From near enough by Newton's method at this value; at a fold or a branch point that fails.
+        if by_newton && (middle.t - value).abs() < 0.1 {
+            by_newton = false;
+            let guess = Guess { x: middle.x.clone(), t: value, across: None, sense: Some(&middle.along) };
+            let there = corrected(equations, guess, 1e-11, true).ok().filter(|c| c.first < b.s - a.s);
+            if let Some(Corrected { mut point, .. }) = there {
+                (point.t, point.s) = (value, middle.s);
+                return Some(point);
+            }
+        }
+        if (middle.t - value).abs() < EXACT || b.s - a.s < NEAREST {
+            return Some(middle);
         }
         if (middle.t - value) * (a.t - value) < 0.0 { b = middle } else { a = middle }
     }
@@ -194,9 +201,10 @@ pub fn at_value<E: Equations>(
 
 /// The place of a change between two points.
 ///
-/// Both sides are told apart by what changes, and a secant tells where to look: of the determinant at a branch point, to the power at
-/// which it grows in proportion. At the point itself the equations are singular, and near it another branch is as near: the last
-/// step, along the tangent, is not corrected.
+/// Both sides are told apart by what changes. Where to look is told by inverse interpolation of what vanishes there: the change of
+/// the parameter at a fold, of the determinant at a branch point to the power at which it grows in proportion. At the point itself
+/// the equations are singular, and another branch is as near: values are taken around it, and the last step, along the tangents, is
+/// not corrected.
 fn located<E: Equations>(
     equations: &mut E,
     a: &PointOf<E>,

@@ -25,7 +25,7 @@ mod predict;
 mod switch;
 
 pub use branch::{Branch, Ended, Limits, Special, SpecialKind, begin};
-pub use correct::Point;
+pub use correct::{Point, reversed};
 pub use diagram::{Diagram, diagram};
 pub use equations::{Direction, Equations, Failed, Stability};
 pub use held::{Held, HeldState, Spent, Work};

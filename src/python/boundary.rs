@@ -8,6 +8,7 @@ use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
+use super::interrupt::{detached, interrupted};
 use super::section::{Along, SectionLaw};
 use super::{rows_from, strains_from};
 use crate::InvalidInput;
@@ -147,7 +148,7 @@ impl BoundaryProblem {
         let settings =
             Settings { tolerance: tol, degree, interrupted: Some(interrupted), ..Settings::default() };
         let problem = Arc::clone(&self.problem);
-        let solution = py.detach(|| Solution::of(problem, &settings, guess.as_ref()))?;
+        let solution = detached(py, || Solution::of(problem, &settings, guess.as_ref()))?;
         Ok(BoundarySolution { solution })
     }
 
@@ -163,14 +164,13 @@ impl BoundaryProblem {
         let settings =
             Settings { tolerance: tol, degree, interrupted: Some(interrupted), ..Settings::default() };
         let problem = Arc::clone(&self.problem);
-        let solutions = py.detach(|| {
+        let solutions = detached(py, || {
             let found = crate::boundary::find(&problem, &settings, most)?;
             let solution = |one: crate::boundary::Solved| {
                 Solution::from_parts(Arc::clone(&problem), degree, one.nodes, one.x, one.report)
             };
             found.into_iter().map(solution).collect::<Result<Vec<_>, InvalidInput>>()
         })?;
-        py.check_signals()?;
         Ok(solutions.into_iter().map(BoundarySolution::from).collect())
     }
 
@@ -381,11 +381,6 @@ pub fn checked_degree(degree: Option<usize>) -> Result<usize, InvalidInput> {
         return Ok(degree);
     }
     Err(InvalidInput::new("degree", degree, &format!("a whole number from 1 to {MAX_DEGREE}")))
-}
-
-/// A signal that Python's handler answers with an exception ends the work; the exception is raised anew.
-pub fn interrupted() -> bool {
-    Python::attach(|py| py.check_signals().is_err())
 }
 
 fn quaternion([w, i, j, k]: [f64; 4]) -> Quaternion<f64> {

@@ -6,6 +6,7 @@
 mod boundary;
 mod branch;
 mod frame;
+mod interrupt;
 mod maps;
 mod section;
 mod trace;

@@ -5,13 +5,13 @@ use std::sync::{Arc, Mutex};
 use pyo3::prelude::*;
 
 use super::boundary::{BoundaryProblem, BoundarySolution, checked_degree};
+use super::interrupt::detached;
 use super::section::SectionLaw;
 use super::traced::{Asked, HeldBranch, NaturalBranch, TracedBranch, limits};
 use crate::InvalidInput;
 use crate::boundary::Family;
 use crate::continuation::{
-    Branch, Diagram, Direction, Ended, Equations, Failed, Held, HeldState, Limits, Natural, NaturalFamily,
-    Point, begin, diagram,
+    Branch, Held, HeldState, Limits, Natural, NaturalFamily, Point, begin, diagram, reversed,
 };
 use crate::equilibrium::natural_shapes;
 
@@ -54,14 +54,6 @@ fn specials<S, C>(branches: &[Branch<S, C>], asked: &Asked<'_>) -> (Vec<SpecialP
     (special, first)
 }
 
-fn was_interrupted<E: Equations>(diagram: &Diagram<E>) -> bool {
-    diagram
-        .branches
-        .iter()
-        .flat_map(|branch| &branch.ended)
-        .any(|ended| *ended == Ended::Failed(Failed::Interrupted))
-}
-
 /// Branches of equilibria of a ribbon between two problems: from `start` at `start_value`, and what branches off.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "what is asked of a trace")]
@@ -93,34 +85,25 @@ pub fn trace(
     };
     let limits = Limits { tolerance: (0.1 * tol).max(1e-14), ..limits(span, &values, max_steps) };
     let asked = Asked { span, values: &values };
-    let (branches, special) = py
-        .detach(|| {
-            let mut equations = Held::new(family, 0.0, degree, tol);
-            let begun = begin(&mut equations, state, t, &limits);
-            let first = begun.map_err(|failed| {
-                InvalidInput::new("start", start_value, &format!("an equilibrium: {failed}"))
-            })?;
-            let first = if t >= 1.0 { turned(&equations, first) } else { first };
-            let found = diagram(&mut equations, vec![first], depth, &limits);
-            let stopped = was_interrupted(&found);
-            let (special, first) = specials(&found.branches, &asked);
-            let equations = Arc::new(Mutex::new(equations));
-            let branch = |branch: HeldBranch| {
-                let origin = branch.origin.map(|(number, i)| first[number] + i);
-                TracedBranch::held(&equations, branch, degree, &asked, origin)
-            };
-            let branches: Vec<_> = found.branches.into_iter().map(branch).collect::<Result<_, _>>()?;
-            if stopped { Ok(None) } else { Ok::<_, InvalidInput>(Some((branches, special))) }
-        })?
-        .unwrap_or_default();
-    py.check_signals()?;
+    let (branches, special) = detached(py, || {
+        let mut equations = Held::new(family, 0.0, degree, tol);
+        let begun = begin(&mut equations, state, t, &limits);
+        let first = begun.map_err(|failed| {
+            InvalidInput::new("start", start_value, &format!("an equilibrium: {failed}"))
+        })?;
+        let first = if t >= 1.0 { reversed(&equations, first) } else { first };
+        let found = diagram(&mut equations, vec![first], depth, &limits);
+        let (special, first) = specials(&found.branches, &asked);
+        let equations = Arc::new(Mutex::new(equations));
+        let branch = |branch: HeldBranch| {
+            let origin = branch.origin.map(|(number, i)| first[number] + i);
+            TracedBranch::held(&equations, branch, degree, &asked, origin)
+        };
+        let branches: Vec<_> = found.branches.into_iter().map(branch).collect::<Result<_, _>>()?;
+        Ok((branches, special))
+    })?;
     let branches = branches.into_iter().map(|branch| Py::new(py, branch)).collect::<PyResult<_>>()?;
     Ok(Trace { branches, special })
-}
-
-fn turned<E: Equations>(equations: &E, point: Point<E::State, E::Change>) -> Point<E::State, E::Change> {
-    let along = Direction { x: equations.sum(&[(-1.0, &point.along.x)]), t: -point.along.t };
-    Point { along, ..point }
 }
 
 /// Branches of natural shapes of a uniform ribbon between two laws: through all there are at both ends, and what branches off.
@@ -136,7 +119,7 @@ pub fn trace_natural(
     let family = NaturalFamily::new(vec![laws.0.law().spec().clone(), laws.1.law().spec().clone()])?;
     // Curvatures over the thickness ratio may be large.
     let limits = Limits { longest: 10.0, ..limits(span, &values, max_steps) };
-    let (branches, special) = py.detach(|| {
+    let (branches, special) = detached(py, || {
         let mut equations = Natural::new(family);
         let mut starts = Vec::new();
         let mut known: Vec<(f64, [f64; 2])> = Vec::new();
@@ -147,7 +130,7 @@ pub fn trace_natural(
                 let x = [shape.strain[2] / section.eta(), shape.strain[3] / section.eta()];
                 known.push((t, x));
                 if let Ok(point) = begin(&mut equations, x, t, &limits) {
-                    starts.push(if t == 1.0 { turned(&equations, point) } else { point });
+                    starts.push(if t == 1.0 { reversed(&equations, point) } else { point });
                 }
             }
         }
@@ -168,9 +151,8 @@ pub fn trace_natural(
             TracedBranch::natural(&equations, branch, &asked, origin)
         };
         let branches: Vec<_> = found.branches.into_iter().map(branch).collect::<Result<_, _>>()?;
-        Ok::<_, InvalidInput>((branches, special))
+        Ok((branches, special))
     })?;
-    py.check_signals()?;
     let branches = branches.into_iter().map(|branch| Py::new(py, branch)).collect::<PyResult<_>>()?;
     Ok(Trace { branches, special })
 }

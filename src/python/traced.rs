@@ -7,7 +7,8 @@ use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-use super::boundary::{BoundaryProblem, BoundarySolution, interrupted};
+use super::boundary::{BoundaryProblem, BoundarySolution};
+use super::interrupt::{detached, interrupted};
 use super::section::SectionLaw;
 use crate::InvalidInput;
 use crate::boundary::{Correction, Family, Mesh, Solution, energies};
@@ -178,19 +179,18 @@ impl TracedBranch {
                 let specs = laws.iter().map(|law| law.get().law().spec().clone()).collect();
                 let mut equations = Natural::new(NaturalFamily::new(specs)?);
                 let point = points.get(place).ok_or_else(|| self.no_point(place))?;
-                let found = py.detach(|| locus(&mut equations, point, u, kind, &limits));
+                let found = detached(py, || Ok(locus(&mut equations, point, u, kind, &limits)))?;
                 (found.places, found.ended)
             }
             (Points::Held(_, points), Corners::Problems(problems)) => {
                 let family = Family::new(problems.iter().map(|problem| problem.get().problem()).collect())?;
                 let point = points.get(place).ok_or_else(|| self.no_point(place))?;
                 let mut equations = Held::new(family, u, self.degree, tol);
-                let found = py.detach(|| locus(&mut equations, point, u, kind, &limits));
+                let found = detached(py, || Ok(locus(&mut equations, point, u, kind, &limits)))?;
                 (found.places, found.ended)
             }
             _ => return Err(InvalidInput::new("corners", "of another kind", "those of the branch").into()),
         };
-        py.check_signals()?;
         let spans = [self.span, other_span];
         let table = Array2::from_shape_fn((places.len(), 2), |(i, c)| parameter(spans[c], places[i][c]));
         Ok((table.into_pyarray(py), (ended[0].name(), ended[1].name())))

@@ -9,6 +9,7 @@ from continued import along, changes, kinds, places
 from held import largest, rod
 from kirchhoff import Kirchhoff
 from scipy.integrate import solve_ivp
+from scipy.linalg import expm
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk, jv
 
@@ -32,8 +33,8 @@ def traced(name, span, *, EI1=100.0, depth=0, guess=(0.0, 0.0, 0.0, 0.0), **scen
     return rb.trace(scene, name, span, start=start, depth=depth, **more)
 
 
-def close(found, expected, span):
-    np.testing.assert_allclose(found, expected, atol=CLOSE * (span[1] - span[0]), rtol=0.0)
+def close(found, expected, span, error=CLOSE):
+    np.testing.assert_allclose(found, expected, atol=error * (span[1] - span[0]), rtol=0.0)
 
 
 def bessel(order, low, high):
@@ -71,6 +72,42 @@ def test_clamped_sliding(span, load, index):
     diagram = traced("end.force", span, end=rb.Sliding(force=span[1] - 1.0))
     close(places(diagram, "branch_point"), [-load], span)
     assert along(diagram) == index
+
+
+def twisted_column(P, M, EI=(100.0, 1.0), GJ=1.0):
+    """The determinant that is zero where a column under a force and a couple of fixed directions buckles.
+
+    With e the direction of the force in the directors, to first order e' + K x e = 0 and
+    m' + K x m - P d3 x e = 0, e = 0 below and m = M e above.
+    """
+    twist = M / GJ
+    a, b = 1.0 / EI[0], 1.0 / EI[1]
+    rates = [
+        [0.0, twist, 0.0, -b],
+        [-twist, 0.0, a, 0.0],
+        [0.0, -P, 0.0, twist - M * b],
+        [P, 0.0, M * a - twist, 0.0],
+    ]
+    end = expm(np.array(rates))
+    return np.linalg.det(end[2:, 2:] - M * end[:2, 2:])
+
+
+@pytest.mark.parametrize("start", [0.0, -1.0, -9.0])
+@pytest.mark.parametrize("M", [0.1, 1.0])
+def test_a_couple_that_has_no_potential(M, start):
+    # without an index, by the sign of the determinant: one point for each load, wherever the trace starts
+    span = (-30.0, 0.0)
+    end = rb.Free((0.0, 0.0, start), (0.0, 0.0, M))
+    diagram = traced("end.force[2]", span, end=end, guess=(0.0, 0.0, 0.0, M))
+    loads = np.linspace(0.0, 30.0, 61)
+    found = [twisted_column(P, M) for P in loads]
+    brackets = [loads[i : i + 2] for i in range(60) if found[i] * found[i + 1] < 0.0]
+    exact = [-brentq(twisted_column, *pair, args=(M,), xtol=1e-14) for pair in brackets]
+    assert len(exact) == 2
+    assert np.isnan(diagram.branches[0].index).all()
+    # the determinant has rounding of 1e-7 of its value at a distance of 1e-3: 1.05e-10 was seen
+    close(places(diagram, "branch_point"), sorted(exact), span, 2.0 * CLOSE)
+    assert kinds(diagram) == {"branch_point"}
 
 
 @pytest.mark.parametrize(("n", "quarters"), [("end.force[2]", 1), ("end.force", 4)])

@@ -154,3 +154,23 @@ def test_the_rod_of_the_same_stiffnesses_buckles_alike():
     start = rb.solve(scene, guess=(0.0, 0.0, 0.0, 0.0))
     other = rb.trace(scene, "end.force[2]", (-12.0 * unit, 0.0), start=start, depth=0)
     np.testing.assert_allclose(places(other, "branch_point"), places(diagram, "branch_point", 0), rtol=1e-9)
+
+
+# --- sections that are unstable where growth is greatest
+
+
+def bends(growth):
+    """The factor of a growth at which its section becomes unstable."""
+    scene = rb.Scene(STRIP, growth)
+    diagram = rb.trace(scene, "growth.edge.amplitude", (0.0, 2.0))
+    return places(diagram, "section_instability")[0]
+
+
+@pytest.mark.parametrize(
+    "xi", [lambda s: 0.003 * s, lambda s: 0.03 - 0.003 * s, lambda s: 0.03 - 0.006 * abs(s - 5.0)]
+)
+def test_sections_at_nodes_count(xi):
+    # greatest at an end or at a kink, where no stage is: flat bends at (-7 + sqrt(259))/2 eta^2
+    S = np.array([0.0, 5.0, 10.0])
+    exact = (-7.0 + math.sqrt(259.0)) / 2.0 * 0.01 / 0.03
+    assert bends(rb.growth.edge((S, np.array([xi(s) for s in S])))) == pytest.approx(exact, rel=1e-9)

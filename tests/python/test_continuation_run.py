@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import ribbonrs as rb
+from continued import places
 from held import rod
 from refusal import refuses
 from ribbonrs.branch import ARRAYS
@@ -46,6 +47,25 @@ def test_branches_are_not_switched_at_depth_0():
     for diagram in both(depth=0):
         assert all(branch.origin is None for branch in diagram.branches)
         assert any(p.kind == "branch_point" for p in diagram.special_points)
+
+
+@pytest.mark.parametrize("name", ["free", "held", "from its end"])
+def test_values_are_met_once_each(name):
+    # ends of the span are values as others are
+    scene, parameter, span = {
+        "free": (EDGE, "growth.edge.amplitude", (0.0, 0.04)),
+        "held": (SCENE, NAME, SPAN),
+        "from its end": (SCENE, NAME, SPAN),
+    }[name]
+    values = np.linspace(*span, 5)
+    start = rb.solve(SCENE) if name == "from its end" else None
+    diagram = rb.trace(scene, parameter, span, values=values, start=start, depth=0)
+    for branch in diagram.branches:
+        met = places(diagram, "value", branch.number)
+        passed = [v for v in values if branch.parameter.min() <= v <= branch.parameter.max()]
+        np.testing.assert_array_equal(np.unique(met), passed)
+        if not any(p.kind == "fold" and p.branch == branch.number for p in diagram.special_points):
+            np.testing.assert_array_equal(met, passed)
 
 
 def test_the_same_bits_twice():

@@ -28,7 +28,7 @@ from .scene import Scene
 from .state import State
 
 if TYPE_CHECKING:
-    from . import analytic
+    from . import analytic, figures
     from .continuation import trace
     from .deflation import find_states
     from .diagram import Diagram, load_diagram
@@ -63,6 +63,7 @@ __all__ = [
     "Sliding",
     "State",
     "analytic",
+    "figures",
     "find_states",
     "growth",
     "integrate_frame",
@@ -95,8 +96,8 @@ LATER = {
 
 def __getattr__(name: str) -> Any:
     """Load what not every program uses: half of what this package costs to import."""
-    if name == "analytic":
-        return import_module(".analytic", __name__)
+    if name in ("analytic", "figures"):
+        return import_module(f".{name}", __name__)
     if name in LATER:
         return getattr(import_module(LATER[name], __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

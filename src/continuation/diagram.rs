@@ -3,7 +3,7 @@
 use super::branch::{BranchOf, Ended, Limits, Special, SpecialKind, follow};
 use super::correct::{PointOf, reversed};
 use super::equations::Equations;
-use super::locate::at_value;
+use super::locate::{Found, at as at_length, at_value, special_points, values_between};
 use super::switch::{Leaving, alike, leaving, leaving_with_section};
 
 /// Branches and their special points.
@@ -89,11 +89,19 @@ fn switch<E: Equations>(
             if limits.interrupted.is_some_and(|asks| asks()) || passed(equations, branches, &point) {
                 continue;
             }
+            let (point, passed_over) = first_step(equations, &at, point, limits);
             let mut branch = walked(equations, point, limits, met);
             // It begins at the branch point itself.
-            branch.points.insert(0, at.clone());
-            branch.points[0].s = 0.0;
-            branch.special.iter_mut().for_each(|special| special.place += 1);
+            let before = passed_over.len() + 1;
+            branch.special.iter_mut().for_each(|special| special.place += before);
+            let special = passed_over.iter().zip(1..).map(|(found, place)| Special {
+                kind: found.kind,
+                place,
+                multiplicity: found.multiplicity,
+            });
+            branch.special.splice(0..0, special);
+            branch.points.splice(0..0, passed_over.into_iter().map(|found| found.point));
+            branch.points.insert(0, PointOf::<E> { s: 0.0, ..at.clone() });
             branch.ended[0] = Ended::Switched;
             (branch.origin, branch.mirrored) = (Some((number, i)), mirrored);
             mark_values::<E>(&mut branch, limits);
@@ -102,6 +110,39 @@ fn switch<E: Equations>(
         }
     }
 }
+
+/// The first point of a branch that leaves a branch point, and the special points between: nearer, where they could not be told apart.
+fn first_step<E: Equations>(
+    equations: &mut E,
+    at: &PointOf<E>,
+    mut first: PointOf<E>,
+    limits: &Limits,
+) -> (PointOf<E>, Vec<Found<E>>) {
+    // With the direction and the free motions of the new branch.
+    let from = PointOf::<E> { x: at.x.clone(), t: at.t, s: 0.0, ..first.clone() };
+    // At the branch point itself the index is that of neither side.
+    while let Some(next) = at_length(equations, &from, &first, NEXT * first.s) {
+        let passed = values_between(equations, &[&from, &next], limits).and_then(|mut found| {
+            found.extend(special_points(equations, &next, &first, limits)?);
+            Ok(found)
+        });
+        if let Ok(found) = passed {
+            return (first, found);
+        }
+        let Some(nearer) = at_length(equations, &from, &first, 0.5 * first.s) else { break };
+        if nearer.s < NEAREST {
+            break;
+        }
+        first = nearer;
+    }
+    (first, Vec::new())
+}
+
+/// A first step that is not shortened.
+const NEAREST: f64 = 1e-3;
+
+/// How far from a branch point stability is that of a branch that leaves it, of the first step.
+const NEXT: f64 = 0.1;
 
 /// Marks what already are points of a branch at values asked for, as its ends may be; where it leaves another that is marked there.
 fn mark_values<E: Equations>(branch: &mut BranchOf<E>, limits: &Limits) {

@@ -31,16 +31,30 @@ pub fn special_points<E: Equations>(
 ) -> Result<Vec<Found<E>>, Failed> {
     let mut found = Vec::new();
     between(equations, a, b, 0, &mut found)?;
+    let mut ends: Vec<&PointOf<E>> = vec![a];
+    ends.extend(found.iter().map(|special| &special.point));
+    ends.push(b);
+    let values = values_between(equations, &ends, limits)?;
+    found.extend(values);
+    found.sort_by(|a, b| a.point.s.total_cmp(&b.point.s));
+    Ok(found)
+}
+
+/// The values asked for that are met between points in a row.
+///
+/// # Errors
+/// If one is not found.
+pub fn values_between<E: Equations>(
+    equations: &mut E,
+    points: &[&PointOf<E>],
+    limits: &Limits,
+) -> Result<Vec<Found<E>>, Failed> {
+    let mut found = Vec::new();
     for &value in &limits.values {
-        let mut ends: Vec<&PointOf<E>> = vec![a];
-        ends.extend(found.iter().map(|special| &special.point));
-        ends.push(b);
-        let mut met = Vec::new();
-        for pair in ends.windows(2).filter(|pair| (pair[0].t - value) * (pair[1].t - value) < 0.0) {
-            met.push(at_value(equations, pair[0], pair[1], value).ok_or(Failed::Jumped)?);
+        for pair in points.windows(2).filter(|pair| (pair[0].t - value) * (pair[1].t - value) < 0.0) {
+            let point = at_value(equations, pair[0], pair[1], value).ok_or(Failed::Jumped)?;
+            found.push(Found { point, kind: SpecialKind::Value, multiplicity: 1 });
         }
-        found.extend(met.into_iter().map(|point| Found { point, kind: SpecialKind::Value, multiplicity: 1 }));
-        found.sort_by(|a, b| a.point.s.total_cmp(&b.point.s));
     }
     Ok(found)
 }

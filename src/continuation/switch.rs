@@ -111,18 +111,27 @@ fn extend<E: Equations>(
     if equations.linearise(x, t, Some(along)).is_err() {
         return;
     }
-    for direction in equations.kernel(singular) {
-        let mut direction = unit(equations, &direction);
-        for other in known.iter() {
-            let part = dot(equations, &direction, other);
-            direction = plus(equations, &direction, -part, other);
+    let kernel = equations.kernel(singular);
+    let mut left: Vec<DirectionOf<E>> = kernel.iter().map(|direction| unit(equations, direction)).collect();
+    while known.len() < most {
+        // Where one branch changes the ribbon much more than the other does all of them are nearly along it: twice, and the largest first.
+        for direction in &mut left {
+            for other in known.iter().chain(known.iter()) {
+                let part = dot(equations, direction, other);
+                *direction = plus(equations, direction, -part, other);
+            }
         }
-        // What is left of what is known is nothing.
-        if dot(equations, &direction, &direction) > 1e-4 && known.len() < most {
-            known.push(unit(equations, &direction));
+        let sizes: Vec<f64> = left.iter().map(|direction| dot(equations, direction, direction)).collect();
+        let Some(largest) = (0..left.len()).max_by(|&i, &k| sizes[i].total_cmp(&sizes[k])) else { return };
+        if sizes[largest] < NOTHING {
+            return;
         }
+        known.push(unit(equations, &left.swap_remove(largest)));
     }
 }
+
+/// Square of what is left of a unit direction that is nothing.
+const NOTHING: f64 = 1e-12;
 
 /// The first point in a direction.
 pub fn stepped<E: Equations>(

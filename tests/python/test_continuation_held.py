@@ -156,6 +156,28 @@ def test_the_rod_of_the_same_stiffnesses_buckles_alike():
     np.testing.assert_allclose(places(other, "branch_point"), places(diagram, "branch_point", 0), rtol=1e-9)
 
 
+# --- a strip pressed together, from its arch
+
+
+def test_the_straight_strip_is_followed_from_its_arch():
+    # the arch meets it from the side, where it changes the ribbon a thousand times less; next to it there are more
+    ends = [rb.Clamped((0.0, 0.0, z)) for z in (9.98, 10.0)]
+    arch, straight = (rb.Scene(STRIP, None, end=end) for end in ends)
+    span = (9.97, 10.0)
+    known = rb.trace(straight, "end.position[2]", span, start=rb.solve(straight), depth=0)
+    found = rb.trace(arch, "end.position[2]", span, depth=1)
+    above, below = found.branches[1:]
+    np.testing.assert_allclose(
+        np.sort([*places(found, "branch_point", 0), *places(found, "branch_point", below.number)]),
+        places(known, "branch_point"),
+        atol=1e-10 * (span[1] - span[0]),
+        rtol=0.0,
+    )
+    assert places(known, "branch_point").size == 5
+    assert [above.parameter[-1], below.parameter[-1]] == [span[1], span[0]]
+    assert (above.index[-1], below.index[-1]) == (0.0, 5.0)
+
+
 # --- sections that are unstable where growth is greatest
 
 

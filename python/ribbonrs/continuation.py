@@ -12,7 +12,7 @@ from .boundary import degree_of, tolerance
 from .branch import Branch, SpecialPoint, root
 from .check import Numbers, number, numbers
 from .course import Held, Uniform
-from .diagram import Diagram
+from .diagram import Diagram, Work
 from .equilibrium import NODES, solve
 from .errors import InputError, RibbonWarning
 from .parameter import Parameter, parameter_of
@@ -138,7 +138,17 @@ def trace(
         for kind, i, place, value, multiplicity in found.special_points
     ]
     zeros = [zero for branch in branches for name in named for zero in _zeros(branch, name, named[name])]
-    return Diagram(scene, traced.name, (low, high), branches, (*special, *zeros, *ends(branches)))
+    points = (*special, *zeros, *ends(branches))
+    return Diagram(scene, traced.name, (low, high), branches, points, _work(found, branches))
+
+
+def _work(found: _core.Trace, branches: Sequence[Branch]) -> Work | None:
+    if found.work is None:
+        return None
+    linearisations, assembly, factorisation, index, seconds = found.work
+    points = sum(branch.parameter.size for branch in branches)
+    rest = seconds - assembly - factorisation - index
+    return Work(points, linearisations, assembly, factorisation, index, rest)
 
 
 def check_span(span: Numbers) -> tuple[float, float]:

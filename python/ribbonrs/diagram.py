@@ -15,7 +15,42 @@ from .state import State
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["Diagram", "load_diagram"]
+__all__ = ["Diagram", "Work", "load_diagram"]
+
+
+@dataclass(frozen=True)
+class Work:
+    """What a trace of a boundary-value problem took.
+
+    Attributes
+    ----------
+    points : int
+        Of all branches, those that were special or that a finer mesh replaced not counted.
+    linearisations : int
+        How often the equations were assembled and factorised.
+    assembly, factorisation, index : float
+        Seconds for residuals and Jacobians, for eliminating strains and nodes, and for stability indices.
+    rest : float
+        Seconds for all else: solutions with the factors, predictions, meshes, comparisons of branches.
+    """
+
+    points: int
+    linearisations: int
+    assembly: float
+    factorisation: float
+    index: float
+    rest: float
+
+    @property
+    def seconds(self) -> float:
+        """All together."""
+        return self.assembly + self.factorisation + self.index + self.rest
+
+    def __str__(self) -> str:
+        named = ("assembly", "factorisation", "index", "rest")
+        parts = ", ".join(f"{name} {getattr(self, name) / self.seconds:.0%}" for name in named)
+        each = 1e3 * self.seconds / self.points
+        return f"{self.points} points in {1e3 * self.seconds:.3g} ms, {each:.2g} ms each: {parts}"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -35,6 +70,8 @@ class Diagram:
     special_points : tuple of SpecialPoint
         Of all branches: folds, branch points, section instabilities and values that were asked for, then
         zeros of functions, then both ends of every branch.
+    work : Work or None
+        What it took; None of natural shapes, and of a diagram from a file.
     """
 
     scene: Scene
@@ -42,6 +79,7 @@ class Diagram:
     span: tuple[float, float]
     branches: tuple[Branch, ...]
     special_points: tuple[SpecialPoint, ...]
+    work: Work | None = None
 
     def __repr__(self) -> str:
         points = sum(branch.parameter.size for branch in self.branches)

@@ -20,9 +20,9 @@ def trace_summary(diagram: Diagram) -> Group:
     """Return the tables of a diagram, to be printed by rich."""
     low, high = diagram.span
     told = f"{diagram.parameter} from {low:g} to {high:g}"
-    return Group(
-        Text(told, style="bold"), _branches_table(diagram), *_special_table(diagram), *_failures(diagram)
-    )
+    tables = _branches_table(diagram), *_special_table(diagram), *_failures(diagram)
+    work = [Text(str(diagram.work))] if diagram.work else []
+    return Group(Text(told, style="bold"), *tables, *work)
 
 
 def _table(title: str, headings: tuple[str, ...], numbers: set[str]) -> Table:

@@ -3,6 +3,7 @@
 #![expect(clippy::neg_cmp_op_on_partial_ord, reason = "what is not a number fails every test")]
 
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -56,6 +57,8 @@ pub struct System {
     pub holds_gliding: bool,
     /// How often the Jacobian was factorised.
     pub factorisations: usize,
+    /// How long that took.
+    pub factorising: Duration,
     /// Of the stages where the equations were linearised.
     pub sections: Sections,
 }
@@ -148,6 +151,7 @@ impl System {
             load: Vec::new(),
             holds_gliding: true,
             factorisations: 0,
+            factorising: Duration::ZERO,
             sections: Sections::default(),
         })
     }
@@ -218,7 +222,10 @@ impl System {
         self.border = None;
         self.sparse = Some(Sparse::new(n, m, strains, self.mesh.elements()));
         self.pass(x, targets, Pass::Sparse)?;
-        if self.sparse.as_mut().is_some_and(Sparse::factorise) {
+        let begun = Instant::now();
+        let regular = self.sparse.as_mut().is_some_and(Sparse::factorise);
+        self.factorising += begun.elapsed();
+        if regular {
             return Ok(());
         }
         Err(Failure::Singular("as a whole".to_owned()))
@@ -272,7 +279,9 @@ impl System {
             } else if self.border.is_none() {
                 self.border = self.chain.border(&end);
             }
+            let begun = Instant::now();
             self.chain.finish(&end, self.border.as_ref());
+            self.factorising += begun.elapsed();
             if !(self.chain.inner_pivot() > SINGULAR) {
                 return Err(Failure::Singular("in the conditions that join the elements".to_owned()));
             }
@@ -312,7 +321,9 @@ impl System {
             let element = &mut self.elements[i];
             self.stages.linearise(&span, &exit, strains, element);
             if pass == Pass::Condensed {
+                let begun = Instant::now();
                 element.eliminate();
+                self.factorising += begun.elapsed();
                 if !(element.pivot > SINGULAR) {
                     return Err(Failure::SingularStages(mesh.nodes[i]));
                 }
@@ -380,7 +391,11 @@ impl System {
             (Some(sparse), Some([jacobian, inputs, readout])) => {
                 sparse.element(i, &Blocks { jacobian, inputs, readout, continuity: [&a, &j, &b] });
             }
-            _ => self.chain.push(&a, &j, &b),
+            _ => {
+                let begun = Instant::now();
+                self.chain.push(&a, &j, &b);
+                self.factorising += begun.elapsed();
+            }
         }
         if point.is_some() && self.layout == Layout::Constant {
             let mut k = vec![0.0; 6 * n];

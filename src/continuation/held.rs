@@ -1,7 +1,7 @@
 //! A ribbon that is held and loaded: the boundary-value problem with one parameter.
 
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use nalgebra::Vector3;
 
@@ -23,38 +23,17 @@ pub struct HeldState {
     pub x: Iterate,
 }
 
-/// How often and how long, in seconds, a part of the work was done.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Spent {
-    /// How often.
-    pub times: usize,
-    /// Seconds.
-    pub seconds: f64,
-}
-
-impl Spent {
-    fn of<T>(&mut self, work: impl FnOnce() -> T) -> T {
-        let start = Instant::now();
-        let done = work();
-        self.times += 1;
-        self.seconds += start.elapsed().as_secs_f64();
-        done
-    }
-}
-
-/// The work of a continuation, by its parts.
+/// How long the parts of the work took, but for the rest.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Work {
-    /// Residual, Jacobian and elimination of elements and nodes.
-    pub linearised: Spent,
-    /// Residuals alone.
-    pub evaluated: Spent,
-    /// Solutions with the factors.
-    pub solved: Spent,
+    /// How often the equations were linearised.
+    pub linearisations: usize,
+    /// Residuals and Jacobians.
+    pub assembly: Duration,
+    /// Elimination of strains and nodes, and factors of the last panel.
+    pub factorisation: Duration,
     /// Stability indices.
-    pub index: Spent,
-    /// Estimates of the error and new meshes.
-    pub meshes: Spent,
+    pub index: Duration,
 }
 
 /// The equations of a family of problems.
@@ -74,7 +53,7 @@ pub struct Held {
     motions: Option<usize>,
     /// Motions that change nothing, orthonormal, where the equations were linearised.
     free: Vec<Direction<Correction>>,
-    /// What was done so far.
+    /// What it took so far.
     pub work: Work,
 }
 
@@ -171,12 +150,12 @@ impl Held {
 
     fn evaluated(&mut self, x: &HeldState, t: f64) -> Result<(), Failed> {
         let problem = self.problem(t)?;
-        let mut spent = self.work.evaluated;
         let system = self.system(x, t)?;
         let mut settled = x.x.clone();
         system.settle(&mut settled, 1.0);
-        let done = spent.of(|| system.evaluate(&settled, &goal(&problem)));
-        self.work.evaluated = spent;
+        let begun = Instant::now();
+        let done = system.evaluate(&settled, &goal(&problem));
+        self.work.assembly += begun.elapsed();
         Ok(done?)
     }
 }
@@ -228,12 +207,15 @@ impl Equations for Held {
     ) -> Result<(), Failed> {
         let problem = self.problem(t)?;
         let mut settled = x.x.clone();
-        let mut spent = self.work.linearised;
         let system = self.system(x, t)?;
         system.settle(&mut settled, 1.0);
-        spent.of(|| system.linearise_open(&settled, &goal(&problem)))?;
+        let (begun, before) = (Instant::now(), system.factorising);
+        system.linearise_open(&settled, &goal(&problem))?;
         let here = system.residual.clone();
-        self.work.linearised = spent;
+        let factorising = system.factorising - before;
+        self.work.linearisations += 1;
+        self.work.factorisation += factorising;
+        self.work.assembly += begun.elapsed() - factorising;
         let before = self.at.take();
         self.evaluated(x, t + DIFFERENCE)?;
         self.at = before;
@@ -242,8 +224,11 @@ impl Equations for Held {
         let mut slope = std::mem::replace(&mut system.residual, here);
         slope.subtract(&system.residual, DIFFERENCE);
         let across = across.map(|across| Line { x: across.x.clone(), t: across.t });
+        let begun = Instant::now();
         let bordered = system.bordered(&slope, across.as_ref(), nullity);
+        let factorising = begun.elapsed();
         let motions = system.motions(&bordered);
+        self.work.factorisation += factorising;
         self.bordered = Some(bordered);
         self.free.clear();
         for Line { x, t } in motions {
@@ -280,7 +265,10 @@ impl Equations for Held {
         let index = if sections.index > 0 {
             None
         } else {
-            self.work.index.of(|| system.index_here(&x.x, 1.0, &springs))
+            let begun = Instant::now();
+            let index = system.index_here(&x.x, 1.0, &springs);
+            self.work.index += begun.elapsed();
+            index
         };
         let determinant = self.bordered.as_ref().and_then(|bordered| system.determinant(bordered));
         let section = sections.least.min(1e300);
@@ -447,9 +435,9 @@ fn turned(mesh: &Mesh, x: &HeldState, by: &Strain) -> Option<Vec<crate::boundary
 
 impl Held {
     /// What the elements of the mesh miss.
-    fn defects(&mut self, x: &HeldState) -> Result<Option<Defects>, Failed> {
+    fn defects(&self, x: &HeldState) -> Result<Option<Defects>, Failed> {
         let Some(system) = &self.system else { return Ok(None) };
-        Ok(Some(self.work.meshes.of(|| defects(system, &x.x, &[]))?))
+        Ok(Some(defects(system, &x.x, &[])?))
     }
 
     /// The change of state and parameter that these gaps stand for.
@@ -463,10 +451,10 @@ impl Held {
         }
     }
 
-    fn solved(&mut self, solve: impl Fn(&System, &Bordered) -> Line) -> Direction<Correction> {
+    fn solved(&self, solve: impl Fn(&System, &Bordered) -> Line) -> Direction<Correction> {
         match (&self.system, &self.bordered) {
             (Some(system), Some(bordered)) => {
-                let Line { x, t } = self.work.solved.of(|| solve(system, bordered));
+                let Line { x, t } = solve(system, bordered);
                 self.without_motions(Direction { x, t })
             }
             _ => no_direction(),

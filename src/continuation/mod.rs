@@ -28,7 +28,7 @@ pub use branch::{Branch, Ended, Limits, Special, SpecialKind, begin};
 pub use correct::{Point, reversed};
 pub use diagram::{Diagram, diagram};
 pub use equations::{Direction, Equations, Failed, Stability};
-pub use held::{Held, HeldState, Spent, Work};
+pub use held::{Held, HeldState, Work};
 pub use locate::at as between;
 pub use locus::{Locus, Plane, locus};
 pub use natural::{Natural, NaturalFamily};

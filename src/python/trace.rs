@@ -1,6 +1,7 @@
 //! Diagrams of equilibria: branches and what branches off.
 
 use std::sync::{Arc, Mutex};
+use std::time::Instant;
 
 use pyo3::prelude::*;
 
@@ -11,18 +12,22 @@ use super::traced::{Asked, HeldBranch, NaturalBranch, TracedBranch, limits};
 use crate::InvalidInput;
 use crate::boundary::Family;
 use crate::continuation::{
-    Branch, Held, HeldState, Limits, Natural, NaturalFamily, Point, begin, diagram, reversed,
+    Branch, Held, HeldState, Limits, Natural, NaturalFamily, Point, Work, begin, diagram, reversed,
 };
 use crate::equilibrium::natural_shapes;
 
 /// Kind, branch, place among its points, parameter, multiplicity.
 type SpecialPoint = (String, usize, usize, f64, usize);
 
+/// How often a boundary-value problem was linearised, and seconds: assembly, factorisation, stability index, all.
+type Effort = (usize, f64, f64, f64, f64);
+
 /// Branches of equilibria and their special points: kind, branch, point, parameter, multiplicity.
 #[pyclass(frozen, module = "ribbonrs._core")]
 pub struct Trace {
     branches: Vec<Py<TracedBranch>>,
     special: Vec<SpecialPoint>,
+    work: Option<Effort>,
 }
 
 #[pymethods]
@@ -37,6 +42,12 @@ impl Trace {
     #[getter]
     fn special_points(&self) -> Vec<SpecialPoint> {
         self.special.clone()
+    }
+
+    /// How often the boundary-value problem was linearised, and seconds of assembly, factorisation, stability index, and all.
+    #[getter]
+    fn work(&self) -> Option<Effort> {
+        self.work
     }
 }
 
@@ -85,7 +96,8 @@ pub fn trace(
     };
     let limits = Limits { tolerance: (0.1 * tol).max(1e-14), ..limits(span, &values, max_steps) };
     let asked = Asked { span, values: &values };
-    let (branches, special) = detached(py, || {
+    let (branches, special, work) = detached(py, || {
+        let started = Instant::now();
         let mut equations = Held::new(family, 0.0, degree, tol);
         let begun = begin(&mut equations, state, t, &limits);
         let first = begun.map_err(|failed| {
@@ -94,16 +106,20 @@ pub fn trace(
         let first = if t >= 1.0 { reversed(&equations, first) } else { first };
         let found = diagram(&mut equations, vec![first], depth, &limits);
         let (special, first) = specials(&found.branches, &asked);
+        let Work { linearisations, assembly, factorisation, index } = equations.work;
+        let [assembly, factorisation, index, all] =
+            [assembly, factorisation, index, started.elapsed()].map(|part| part.as_secs_f64());
+        let work = (linearisations, assembly, factorisation, index, all);
         let equations = Arc::new(Mutex::new(equations));
         let branch = |branch: HeldBranch| {
             let origin = branch.origin.map(|(number, i)| first[number] + i);
             TracedBranch::held(&equations, branch, degree, &asked, origin)
         };
         let branches: Vec<_> = found.branches.into_iter().map(branch).collect::<Result<_, _>>()?;
-        Ok((branches, special))
+        Ok((branches, special, work))
     })?;
     let branches = branches.into_iter().map(|branch| Py::new(py, branch)).collect::<PyResult<_>>()?;
-    Ok(Trace { branches, special })
+    Ok(Trace { branches, special, work: Some(work) })
 }
 
 /// Branches of natural shapes of a uniform ribbon between two laws: through all there are at both ends, and what branches off.
@@ -154,5 +170,5 @@ pub fn trace_natural(
         Ok((branches, special))
     })?;
     let branches = branches.into_iter().map(|branch| Py::new(py, branch)).collect::<PyResult<_>>()?;
-    Ok(Trace { branches, special })
+    Ok(Trace { branches, special, work: None })
 }

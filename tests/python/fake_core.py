@@ -44,7 +44,7 @@ class FakeTrace:
     """Branches and special points."""
 
     def __init__(self, branches, special_points):
-        self.branches, self.special_points = branches, special_points
+        self.branches, self.special_points, self.work = branches, special_points, None
 
 
 LEAF = rb.Ribbon(10.0, 1.0, 0.1)

@@ -160,7 +160,7 @@ def test_the_rod_of_the_same_stiffnesses_buckles_alike():
 
 
 def test_the_straight_strip_is_followed_from_its_arch():
-    # the arch meets it from the side, where it changes the ribbon a thousand times less; next to it there are more
+    # the arch meets it from the side; it changes the ribbon a thousand times less, and others are near
     ends = [rb.Clamped((0.0, 0.0, z)) for z in (9.98, 10.0)]
     arch, straight = (rb.Scene(STRIP, None, end=end) for end in ends)
     span = (9.97, 10.0)

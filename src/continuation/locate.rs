@@ -142,19 +142,18 @@ fn at_across<E: Equations>(
     Some(point)
 }
 
-/// The point near a place that is measured along a direction, in a plane across it, from one of two whose places are known; from the
-/// first if the other's is not.
+/// The point at a place that is measured along a direction, in the plane across it, by a step from a point whose place is known toward
+/// another.
 fn in_plane<E: Equations>(
     equations: &mut E,
-    (low, high): (&PointOf<E>, &PointOf<E>),
+    (from, to): (&PointOf<E>, &PointOf<E>),
     place: f64,
     across: &DirectionOf<E>,
-    from_low: bool,
+    sense: &PointOf<E>,
 ) -> Option<PointOf<E>> {
-    let nearer_low = from_low || (place - low.s).abs() <= (high.s - place).abs();
-    let (from, to) = if nearer_low { (low, high) } else { (high, low) };
     let step = (place - from.s) / dot(equations, across, &from.along);
-    let (mut point, moved) = stepped_along(equations, (from, to), (step, high.s - low.s), across, low)?;
+    let whole = (to.s - from.s).abs().max(step.abs());
+    let (mut point, moved) = stepped_along(equations, (from, to), (step, whole), across, sense)?;
     point.s = from.s + moved;
     Some(point)
 }
@@ -249,9 +248,13 @@ fn located<E: Equations>(
     };
     let index = |point: &PointOf<E>| point.stability.index.unwrap_or(0);
     let (mut low, mut high) = (a.clone(), b.clone());
-    // Places are measured along the tangent at a, at right angles to which all points are corrected: b's is not known exactly.
-    high.s = a.s + 0.5 * (1.0 + dot(equations, &a.along, &b.along)) * (b.s - a.s);
-    let most = high.s;
+    // By halves to where rotations add as vectors do.
+    while high.s - low.s > SHORT {
+        let middle = at(equations, &low, &high, 0.5 * (high.s - low.s))?;
+        if before(&middle) { low = middle } else { high = middle }
+    }
+    let (a, b) = (low.clone(), high.clone());
+    // Places are measured along the tangent at a, at right angles to which all points are corrected: b's may be a little less.
     let mut tried: Vec<PointOf<E>> = Vec::new();
     let mut lengths = [f64::INFINITY; 2];
     let mut spread = SPREAD.min(0.1 * (b.s - a.s));
@@ -286,12 +289,15 @@ fn located<E: Equations>(
         if slow || !inside && length > 4.0 * spread {
             next = 0.5 * (low.s + high.s);
         }
-        let next = next.clamp(low.s - spread, high.s + spread).clamp(a.s, most);
+        let next = next.clamp(low.s - spread, high.s + spread).clamp(a.s, b.s);
         lengths = [lengths[1], length];
         let aside = [next, next - 0.3 * spread, next + 0.3 * spread];
-        let point = aside
-            .into_iter()
-            .find_map(|s| in_plane(equations, (&low, &high), s, &a.along, tried.is_empty()))?;
+        // All by steps from a, on which their places depend a little.
+        let point = aside.into_iter().find_map(|s| {
+            let apart = |point: &&PointOf<E>| (point.s - s).abs();
+            let from = tried.iter().chain([&a]).min_by(|p, q| apart(p).total_cmp(&apart(q)))?;
+            in_plane(equations, (from, if from.s < s { &b } else { &a }), s, &a.along, &a)
+        })?;
         if before(&point) {
             if point.s > low.s {
                 low = point.clone()
@@ -304,6 +310,8 @@ fn located<E: Equations>(
     None
 }
 
+/// An interval in which places are measured along its first tangent.
+const SHORT: f64 = 0.05;
 /// Values by which a root is interpolated, and how far around it they are taken.
 const MEMORY: usize = 5;
 const SPREAD: f64 = 1e-3;

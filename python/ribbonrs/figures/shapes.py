@@ -14,10 +14,17 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize, to_rgb
 
 from ..arrays import Array
+from ..course import Uniform, phase_of
+from ..equilibrium import NODES
+from ..growth import Growth
+from ..law import SectionLaw
 from ..render import Picture, render
+from ..report import Report
+from ..ribbon import Ribbon
+from ..scene import Scene
 from ..state import State
 
-__all__ = ["deflection_scale", "draw_grid", "draw_shape", "view"]
+__all__ = ["deflection_scale", "draw_grid", "draw_shape", "held_at", "view"]
 
 Colour = str | ScalarMappable
 
@@ -40,6 +47,22 @@ def view(elevation: float = 30.0, side: float = 25.0) -> Array:
     right = np.array([0.0, math.sin(along), math.cos(along)])
     toward = math.cos(up) * front + math.sin(up) * np.array([1.0, 0.0, 0.0])
     return np.stack([right, np.cross(toward, right), toward])
+
+
+def held_at(ribbon: Ribbon, growth: Growth, strain: Sequence[float]) -> State:
+    """Return the ribbon at the strains eps, K1, K2, K3 all along, its sections relaxed, whatever holds it."""
+    law = SectionLaw.of(ribbon, growth)
+    given = np.array(strain, dtype=np.float64)
+    return State(
+        scene=Scene(ribbon, growth),
+        course=Uniform(given),
+        energy=float(law.energy(given)),
+        section_index=int(np.sum(np.linalg.eigvalsh(law.hessian(given)) < 0.0)),
+        phases=(phase_of(given, ribbon.thickness_ratio),),
+        resolved=True,
+        report=Report("held at given strains", 1, 0, float(np.linalg.norm(law.gradient(given)))),
+        S=np.linspace(0.0, ribbon.length_ratio, NODES),
+    )
 
 
 def deflection_scale(states: Sequence[State]) -> ScalarMappable:

@@ -13,6 +13,7 @@ from .drawing import Drawing
 from .fig3 import fig3
 from .fig4 import fig4
 from .fig5 import fig5
+from .fig6 import fig6
 
 __all__ = [
     "FIGURES",
@@ -20,11 +21,13 @@ __all__ = [
     "fig3",
     "fig4",
     "fig5",
+    "fig6",
 ]
 
 FIGURES: dict[str, Callable[..., Drawing]] = {
     "fig3": fig3,
     "fig4": fig4,
     "fig5": fig5,
+    "fig6": fig6,
 }
 """Every figure by its name, in the order of the paper."""

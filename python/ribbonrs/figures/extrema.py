@@ -6,21 +6,31 @@ eps = 0; its eq. (64) with the ends free of force, n3 = 0, where eps = xi/3 - K3
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from ..arrays import Array
 from ..growth import edge
 from ..law import SectionLaw
+from .style import INK
 
-__all__ = ["CONDITIONS", "KINDS", "Extremum", "Plane"]
+__all__ = ["CONDITIONS", "KINDS", "MARKS", "Extremum", "Plane"]
 
 CONDITIONS = {"eps0": r"$\varepsilon = 0$", "n30": "$n_3 = 0$"}
 """The two readings, and how figures name them."""
 
 KINDS = ("minimum", "saddle", "maximum")
 """By the number of negative eigenvalues of the Hessian in (K2, K3)."""
+
+MARKS: dict[str, dict[str, Any]] = {
+    "minimum": {"marker": "o", "markersize": 5.5, "color": INK, "markeredgecolor": "white"},
+    "saddle": {"marker": "D", "markersize": 4.0, "color": "white", "markeredgecolor": INK},
+    "maximum": {"marker": "^", "markersize": 5.0, "color": "white", "markeredgecolor": INK},
+}
+"""What marks each kind in figures."""
 
 STARTS = 9
 """Newton starts in either direction."""
@@ -50,16 +60,27 @@ class Plane:
         Thickness over width, edge growth.
     condition : str
         One of `CONDITIONS`.
+    law : str
+        "full", or "quadratic", eq. (59).
     """
 
-    def __init__(self, eta: float, xi: float, condition: str) -> None:
-        self.law = SectionLaw(eta, edge(xi))
-        self.eta, self.xi, self.free = eta, xi, condition == "n30"
+    def __init__(self, eta: float, xi: float, condition: str, law: str = "full") -> None:
+        self.law = SectionLaw(eta, edge(xi), law=law)
+        self.eta, self.xi, self.condition = eta, xi, condition
+
+    def of(self, law: str) -> Plane:
+        """Return the same of another law."""
+        return Plane(self.eta, self.xi, self.condition, law)
+
+    @property
+    def reach(self) -> float:
+        """Within which curvatures of stationary points stay: that of the isometric surface, sqrt(8 |xi|)."""
+        return math.sqrt(8.0 * abs(self.xi)) or self.eta
 
     def strains(self, K2: Array | float, K3: Array | float) -> Array:
         """Return eps, K1, K2, K3, array (..., 4)."""
         K2, K3 = np.broadcast_arrays(K2, K3)
-        eps = self.xi / 3.0 - K3**2 / 24.0 if self.free else np.zeros(K3.shape)
+        eps = self.xi / 3.0 - K3**2 / 24.0 if self.condition == "n30" else np.zeros(K3.shape)
         return np.stack([eps, np.zeros(K3.shape), K2, K3], axis=-1)
 
     def energy(self, K2: Array | float, K3: Array | float) -> Array:
@@ -74,17 +95,16 @@ class Plane:
         """Return its Hessian, array (..., 2, 2), less what the relaxing eps takes away."""
         whole = self.law.hessian(self.strains(K2, K3))
         stiff, coupled = whole[..., 2:, 2:], whole[..., 0, 2:]
-        if self.free:
+        if self.condition == "n30":
             stiff = stiff - coupled[..., :, None] * coupled[..., None, :] / whole[..., :1, :1]
         return stiff
 
     def extrema(self, *, straight: bool = False) -> list[Extremum]:
         """Return the stationary points by K2, then K3; only those with K2 = 0 if `straight`.
 
-        Newton's method from a grid. Curvatures of stationary points stay within sqrt(8 |xi|), where the
-        ribbon is an isometric surface. By symmetry it never leaves the line K2 = 0.
+        Newton's method from a grid; by symmetry it never leaves the line K2 = 0.
         """
-        reach = np.sqrt(8.0 * abs(self.xi)) or self.eta
+        reach = self.reach
         line = np.linspace(-reach, reach, STARTS)
         K2, K3 = (grid.ravel() for grid in np.meshgrid(0.0 if straight else line, line))
         with np.errstate(all="ignore"):  # starts that diverge are dropped

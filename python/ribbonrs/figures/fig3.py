@@ -59,11 +59,11 @@ def fig3(eta: float = 0.05, xi: float = 0.3, length: float = 5.0) -> Drawing:
         "Fig. 3. (a) Growth along the ribbon with a gradient through the thickness, g33 = xi X1/a, "
         f"xi = {xi:g}, eta = {eta:g}. (b) The ribbon, {length:g} widths long, coloured by its deflection "
         "u1/a. Published: eqs. (48)-(50) of Liu, Li & Liu, in which the gradient is missing from the edge "
-        "condition of the deflection; (48) is taken less its sign(K2), which would make the deflection even in K2, and "
-        "(50) with K2 (K2 + 2 xi) for its root, which is imaginary at this curvature. Consistent: the same "
-        "growth with the gradient kept. It is compatible: a cylinder without stress and deflection, "
-        "K2 = -xi, and no saddle. Isochoric: with transverse growth g22 = -g33/2, which makes a saddle; the "
-        "printed deflection is that of this growth, the printed energy is not."
+        "condition of the deflection; (48) is taken less its sign(K2), which would make the deflection even "
+        "in K2, and (50) with K2 (K2 + 2 xi) for its root, which is imaginary at this curvature. "
+        "Consistent: the same growth with the gradient kept. It is compatible: a cylinder without stress and "
+        "deflection, K2 = -xi, and no saddle. Isochoric: with transverse growth g22 = -g33/2, which makes a "
+        "saddle; the printed deflection is that of this growth, the printed energy is not."
     )
     tables = {
         "growth": {"X1/h": height.tolist(), "g33": growth.tolist()},

@@ -14,6 +14,8 @@ from .fig3 import fig3
 from .fig4 import fig4
 from .fig5 import fig5
 from .fig6 import fig6
+from .fig7_8 import fig7, fig8
+from .fig9 import fig9
 
 __all__ = [
     "FIGURES",
@@ -22,6 +24,9 @@ __all__ = [
     "fig4",
     "fig5",
     "fig6",
+    "fig7",
+    "fig8",
+    "fig9",
 ]
 
 FIGURES: dict[str, Callable[..., Drawing]] = {
@@ -29,5 +34,8 @@ FIGURES: dict[str, Callable[..., Drawing]] = {
     "fig4": fig4,
     "fig5": fig5,
     "fig6": fig6,
+    "fig7": fig7,
+    "fig8": fig8,
+    "fig9": fig9,
 }
 """Every figure by its name, in the order of the paper."""

@@ -15,7 +15,7 @@ from ..check import Numbers
 from .drawing import Drawing
 from .extrema import CONDITIONS, MARKS, Plane
 from .given import growths, ratio, ratios
-from .style import COLOURS, PAGE, new_figure, styled
+from .style import COLOURS, INK, PAGE, new_figure, styled
 
 __all__ = ["fig7", "fig8"]
 
@@ -107,6 +107,7 @@ def _draw_energies(
 ) -> tuple[dict[str, list[float]], dict[str, list[Any]]]:
     energies: dict[str, list[float]] = {}
     rows: list[tuple[Any, ...]] = []
+    met: dict[str, list[str]] = {}
     for i, (varied, eta, xi) in enumerate(cases):
         plane = Plane(eta, xi, condition)
         energy = plane.energy(0.0, K3)
@@ -114,8 +115,16 @@ def _draw_energies(
         axes.plot(K3, energy, color=COLOURS[(i + 1) % len(COLOURS)], label=rf"$\{varied}$ = {value:g}")
         energies[f"Pi {varied}={value:g}"] = energy.tolist()
         for one in plane.extrema(straight=True):
-            axes.plot(one.K3, one.energy, zorder=3, **MARKS[one.kind])
+            if varied == "eta" and one.K3 == 0.0:  # where all curves meet
+                met.setdefault(one.kind, []).append(f"{value:g}")
+            else:
+                axes.plot(one.K3, one.energy, zorder=3, **MARKS[one.kind])
             rows.append((eta, xi, one.K3, one.energy, one.kind))
+    if met:
+        told = "\n".join(rf"{kind}: $\eta$ = {', '.join(values)}" for kind, values in met.items())
+        line = {"arrowstyle": "-", "color": INK, "linewidth": 0.7}
+        place: dict[str, Any] = {"xytext": (0.5, 0.8), "textcoords": "axes fraction", "ha": "center"}
+        axes.annotate(told, (0.0, float(plane.energy(0.0, 0.0))), fontsize=6.5, arrowprops=line, **place)
     names = ("eta", "xi", "K3", "energy", "kind")
     return energies, {name: list(column) for name, column in zip(names, zip(*rows, strict=True), strict=True)}
 
@@ -123,4 +132,6 @@ def _draw_energies(
 def _draw_legend(figure: Figure, axes: Axes) -> None:
     marks = [Line2D([], [], linestyle="none", label=kind, **mark) for kind, mark in MARKS.items()]
     lines = axes.get_legend_handles_labels()[0]
-    figure.legend(handles=[*lines, *marks], loc="outside lower center", ncols=4 if len(lines) < 5 else 5)
+    figure.legend(
+        handles=[*lines, *marks], loc="outside lower center", ncols=8, columnspacing=1.3, handlelength=1.4
+    )

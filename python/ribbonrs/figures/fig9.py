@@ -71,8 +71,8 @@ def fig9(eta: Numbers = (0.04, 0.06, 0.08, 0.1), xi: float = 0.1) -> Drawing:
         "closed forms. Stars: thresholds. (a) With the length held, eps = 0: xi = 20 eta^2/9, then "
         "K3^2 = 8 xi - 160 eta^2/9. (b) With the ends free of force, n3 = 0: xi = 5 eta^2, then eq. (64), "
         "K3^2 = 8 xi - 40 eta^2. Solid: a minimum of the energy over K2 and K3, dashed: a saddle. Triangles: "
-        "with free ends the flat ribbon bends already at xi = 4.547 eta^2, and the twisted one is unstable to "
-        "bending from its threshold on, which the paper does not say."
+        "with free ends the flat ribbon bends already at xi = 4.547 eta^2, and the twisted one is unstable "
+        "to bending from its threshold on, which the paper does not say."
     )
     return Drawing("fig9", figure, caption, tables)
 

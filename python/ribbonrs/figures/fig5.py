@@ -49,9 +49,9 @@ def fig5(eta: Numbers = (0.05, 0.1), xi: Numbers = (0.0, 0.1, 0.2, 0.3), length:
     panels = figure.subplots(len(eta), 2, squeeze=False, width_ratios=[2.7, 1.0])
     x = np.linspace(-0.5, 0.5, 101)
     tables: dict[str, dict[str, list[float]]] = {}
-    for letter, h, (space, across) in zip("abcdefghijklmnopqrstuvwxyz", eta, panels, strict=False):
+    for i, (h, (space, across)) in enumerate(zip(eta, panels, strict=True)):
         _draw_space(space, states[h], xi, colour)
-        space.set_title(rf"({letter})  $\eta$ = {h:g}")
+        space.set_title(rf"({chr(97 + i)})  $\eta$ = {h:g}")
         profiles = {
             reading: [state.deflection(x)[0] for state in row]
             for reading, row in zip(READINGS, states[h], strict=True)

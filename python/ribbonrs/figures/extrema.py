@@ -37,7 +37,7 @@ STARTS = 9
 
 STEPS = 60
 
-# Of the size of the curvatures: roots are found to rounding; what is farther apart is another.
+# Of the size of the curvatures: roots that are closer are one.
 SAME = 1e-7
 
 
@@ -102,7 +102,8 @@ class Plane:
     def extrema(self, *, straight: bool = False) -> list[Extremum]:
         """Return the stationary points by K2, then K3; only those with K2 = 0 if `straight`.
 
-        Newton's method from a grid; by symmetry it never leaves the line K2 = 0.
+        Newton's method from a grid, which stays on the line K2 = 0 by symmetry. That it misses none is
+        tested at n3 = 0 against the natural shapes, which are complete, and at eps = 0 against closed forms.
         """
         reach = self.reach
         line = np.linspace(-reach, reach, STARTS)
@@ -112,7 +113,7 @@ class Plane:
                 step = _solved(self.stiffness(K2, K3), self.slope(K2, K3))
                 inside = np.all(np.isfinite(step), axis=-1) & (np.hypot(*step.T) <= 4.0 * reach)
                 K2, K3, step = K2[inside] - step[inside, 0], K3[inside] - step[inside, 1], step[inside]
-        small = np.hypot(*step.T) <= SAME * reach * 1e-3
+        small = np.hypot(*step.T) <= 1e-3 * SAME * reach
         found: list[Extremum] = []
         for k2, k3 in sorted(zip(K2[small].tolist(), K3[small].tolist(), strict=True)):
             k2, k3 = (0.0 if abs(k) <= SAME * reach else k for k in (k2, k3))

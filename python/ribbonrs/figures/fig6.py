@@ -84,12 +84,12 @@ def fig6(eta: float = 0.1, xi: float = 0.03, length: float = 10.0) -> Drawing:
     caption = (
         f"Fig. 6. Energy of edge growth g33 = xi (2 X2/a)^2 over K2 and K3, eta = {eta:g}, xi = {xi:g}, "
         "K1 = 0, with its minima, saddles and maxima: by the full law, eqs. (57) and (58) of Liu, Li & Liu, "
-        "and, dashed, by its expansion to second order in K2, eq. (59). (a)-(c) With the length held, "
-        f"eps = 0: least where the ribbon is {phases[0]}. (d)-(f) With the ends free of force, n3 = 0, where "
-        f"eps = xi/3 - K3^2/24: least where it is {phases[1]}. (c), (f) The ribbon there, {length:g} widths "
-        "long. The paper does not say what becomes of eps. The three extrema that it describes at xi = 0.03, "
-        "eta = 0.1 exist at eps = 0; with free ends, for which its eq. (64) holds, the flat ribbon is the "
-        "only one until xi = 4.547 eta^2."
+        "and, dashed at every third level, by its expansion to second order in K2, eq. (59). (a)-(c) With "
+        f"the length held, eps = 0: least where the ribbon is {phases[0]}. (d)-(f) With the ends free of "
+        f"force, n3 = 0, where eps = xi/3 - K3^2/24: least where it is {phases[1]}. (c), (f) The ribbon "
+        f"there, {length:g} widths long. The paper does not say what becomes of eps. The three extrema that "
+        "it describes at xi = 0.03, eta = 0.1 exist at eps = 0; with free ends, for which its eq. (64) "
+        "holds, the flat ribbon is the only one until xi = 4.547 eta^2."
     )
     return Drawing("fig6", figure, caption, tables)
 

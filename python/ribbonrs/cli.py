@@ -1,4 +1,4 @@
-"""The command line: ``ribbonrs run SCENE.toml``, and ``ribbonrs trace`` and ``ribbonrs sweep`` likewise.
+"""The command line: ``ribbonrs run SCENE.toml``, ``trace`` and ``sweep`` likewise, and ``ribbonrs figures``.
 
 Exit status 0, or 2 for wrong input, 1 where no solution was found, 130 after an interrupt; the reason is one
 line on stderr.
@@ -14,6 +14,7 @@ import time
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from difflib import get_close_matches
 from pathlib import Path
 
 from rich.console import Console, RenderableType
@@ -36,7 +37,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit status."""
     given = _parser().parse_args(arguments)
     try:
-        status: int = given.command(given.scene)
+        status: int = given.command(given)
         print(end="", flush=True)
     except InputError as error:
         return _fail(str(error), 2)
@@ -64,12 +65,17 @@ def _parser() -> argparse.ArgumentParser:
         added = commands.add_parser(name, help=told)
         added.add_argument("scene", type=Path, metavar="SCENE.toml", help="the scene file")
         added.set_defaults(command=command)
+    added = commands.add_parser("figures", help="draw the figures of the paper that the model comes from")
+    added.add_argument("names", nargs="*", metavar="NAME", help="fig3, fig4, ...; all without a name")
+    added.add_argument("--directory", type=Path, default=Path("figures"), help="made if it does not exist")
+    added.add_argument("--format", nargs="+", default=["pdf", "png"], help="pdf, png, svg")
+    added.set_defaults(command=_figures)
     return parser
 
 
-def _run(path: Path) -> int:
+def _run(given: argparse.Namespace) -> int:
     with _told_warnings():
-        job = read(path)
+        job = read(given.scene)
         states = [] if job.scene.loaded else equilibria(job.scene)
         state = chosen(states) if states else solve(job.scene, **job.options)
         others = [other for other in states if other is not state]
@@ -83,9 +89,9 @@ def _run(path: Path) -> int:
     return 0
 
 
-def _trace(path: Path) -> int:
+def _trace(given: argparse.Namespace) -> int:
     with _told_warnings():
-        job = read(path)
+        job = read(given.scene)
         if job.trace is None:
             raise InputError("trace", MISSING, "a table with a parameter and its span")
         diagram = job.trace.diagram(job.scene, **job.options)
@@ -101,9 +107,9 @@ def _trace(path: Path) -> int:
     return 0
 
 
-def _sweep(path: Path) -> int:
+def _sweep(given: argparse.Namespace) -> int:
     with _told_warnings():
-        job = read(path)
+        job = read(given.scene)
         if job.sweep is None:
             raise InputError("sweep", MISSING, "a table with two parameters and their spans, x and y")
         begun = time.perf_counter()
@@ -117,6 +123,34 @@ def _sweep(path: Path) -> int:
         write_all(job.swept, lambda kind, path: writers[kind](path))
     _print(told, [], job.swept)
     return INTERRUPTED if diagram.interrupted else 0
+
+
+def _figures(given: argparse.Namespace) -> int:
+    from .figures import FIGURES
+    from .figures.drawing import FORMATS
+
+    for field, names, known in (("figure", given.names, list(FIGURES)), ("format", given.format, FORMATS)):
+        for name in names:
+            if name not in known:
+                nearest = get_close_matches(name, known, n=1, cutoff=0.0)[0]
+                raise InputError(field, name, f"one of {', '.join(known)}; the nearest is {nearest}")
+    try:
+        given.directory.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise _unwritable(given.directory, error) from None
+    for name in dict.fromkeys(given.names or FIGURES):
+        drawing = FIGURES[name]()
+        try:
+            written = drawing.save(given.directory, given.format)
+        except OSError as error:
+            raise _unwritable(given.directory, error) from None
+        for path in written:
+            print(f"wrote {path}", flush=True)
+    return 0
+
+
+def _unwritable(directory: Path, error: OSError) -> InputError:
+    return InputError("directory", str(directory), f"one that can be written, not: {error.strerror}")
 
 
 @contextmanager

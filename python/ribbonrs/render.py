@@ -86,17 +86,22 @@ class Picture:
         return float(np.divide(*(high - low)))
 
 
-def render(state: State) -> Picture:
-    """Return the body of `state` as cells to paint: both faces, the edges and the ends."""
+def render(state: State, view: Array | None = None, detail: float = 1.0) -> Picture:
+    """Return the body of `state` as cells to paint: both faces, the edges and the ends.
+
+    `view` (3, 3) has as rows the directions right, up and towards the viewer in the fixed basis; by default
+    they suit the shape. Of a small picture less `detail`, a part of the cells, is enough.
+    """
     length, course = state.scene.ribbon.length_ratio, state.course
     end = length
     turns = float(course.turns(np.array([length]))[0])
     if turns > MAX_TURNS:
         places = np.linspace(0.0, length, 1001)
         end = float(np.interp(MAX_TURNS, course.turns(places), places))
+    fineness = math.sqrt(detail)
     wanted = max(CELLS_PER_TURN * min(turns, MAX_TURNS), CELLS_PER_WIDTH * end)
-    along = int(np.clip(wanted, MIN_ALONG, MAX_ALONG))
-    across = int(np.clip(CELLS / along, MIN_ACROSS, MAX_ACROSS))
+    along = int(fineness * np.clip(wanted, MIN_ALONG, MAX_ALONG))
+    across = int(np.clip(detail * CELLS / along, fineness * MIN_ACROSS, MAX_ACROSS))
     S = np.linspace(0.0, end, along + 1)
     x = np.concatenate([[-0.5], np.linspace(-0.5 + OUTLINE, 0.5 - OUTLINE, across - 1), [0.5]])
     sections = state.at(S)
@@ -104,7 +109,9 @@ def render(state: State) -> Picture:
     top, bottom = placed(sections, middle + fibre), placed(sections, middle - fibre)
     u1 = _means(np.broadcast_to(middle[..., 0], (along + 1, across + 1)))
 
-    camera = _camera(np.concatenate([top, bottom], axis=1), _upright(state, sections))
+    camera = view
+    if camera is None:
+        camera = _camera(np.concatenate([top, bottom], axis=1), _upright(state, sections))
     x_mid = (x[:-1] + x[1:]) / 2
     face = np.where(np.abs(x_mid) > 0.5 - OUTLINE, OUTLINE_SHADE, 1.0)
     parts = []

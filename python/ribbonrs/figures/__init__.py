@@ -10,8 +10,32 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from .drawing import Drawing
+from .fig3 import fig3
+from .fig4 import fig4
+from .fig5 import fig5
+from .fig6 import fig6
+from .fig7_8 import fig7, fig8
+from .fig9 import fig9
 
-__all__ = ["FIGURES", "Drawing"]
+__all__ = [
+    "FIGURES",
+    "Drawing",
+    "fig3",
+    "fig4",
+    "fig5",
+    "fig6",
+    "fig7",
+    "fig8",
+    "fig9",
+]
 
-FIGURES: dict[str, Callable[..., Drawing]] = {}
+FIGURES: dict[str, Callable[..., Drawing]] = {
+    "fig3": fig3,
+    "fig4": fig4,
+    "fig5": fig5,
+    "fig6": fig6,
+    "fig7": fig7,
+    "fig8": fig8,
+    "fig9": fig9,
+}
 """Every figure by its name, in the order of the paper."""

@@ -1,7 +1,7 @@
-"""The command line: ``ribbonrs run SCENE.toml``, and ``ribbonrs trace`` and ``ribbonrs sweep`` likewise.
+"""The command line: ``ribbonrs run``, ``trace`` and ``sweep`` of a scene file, and ``ribbonrs validate``.
 
 Exit status 0, or 2 for wrong input, 1 where no solution was found, 130 after an interrupt; the reason is one
-line on stderr.
+line on stderr. Also 1 where a row of the validation fails.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from rich.console import Console, RenderableType
 
 from .equilibrium import chosen, equilibria, solve
 from .errors import MISSING, InputError, RibbonError, RibbonWarning
+from .files import check_path
 from .outputs import Output, write_all
 from .scenefile import read
 from .summary import summary
@@ -36,7 +37,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit status."""
     given = _parser().parse_args(arguments)
     try:
-        status: int = given.command(given.scene)
+        status: int = given.command(given)
         print(end="", flush=True)
     except InputError as error:
         return _fail(str(error), 2)
@@ -64,12 +65,16 @@ def _parser() -> argparse.ArgumentParser:
         added = commands.add_parser(name, help=told)
         added.add_argument("scene", type=Path, metavar="SCENE.toml", help="the scene file")
         added.set_defaults(command=command)
+    added = commands.add_parser("validate", help="compare what is published with what the program gives")
+    added.add_argument("topics", nargs="*", metavar="TOPIC", help="which part of it; all if none is named")
+    added.add_argument("--csv", type=Path, metavar="PATH", help="write the table as comma-separated values")
+    added.set_defaults(command=_validate)
     return parser
 
 
-def _run(path: Path) -> int:
+def _run(given: argparse.Namespace) -> int:
     with _told_warnings():
-        job = read(path)
+        job = read(given.scene)
         states = [] if job.scene.loaded else equilibria(job.scene)
         state = chosen(states) if states else solve(job.scene, **job.options)
         others = [other for other in states if other is not state]
@@ -83,9 +88,9 @@ def _run(path: Path) -> int:
     return 0
 
 
-def _trace(path: Path) -> int:
+def _trace(given: argparse.Namespace) -> int:
     with _told_warnings():
-        job = read(path)
+        job = read(given.scene)
         if job.trace is None:
             raise InputError("trace", MISSING, "a table with a parameter and its span")
         diagram = job.trace.diagram(job.scene, **job.options)
@@ -101,9 +106,9 @@ def _trace(path: Path) -> int:
     return 0
 
 
-def _sweep(path: Path) -> int:
+def _sweep(given: argparse.Namespace) -> int:
     with _told_warnings():
-        job = read(path)
+        job = read(given.scene)
         if job.sweep is None:
             raise InputError("sweep", MISSING, "a table with two parameters and their spans, x and y")
         begun = time.perf_counter()
@@ -117,6 +122,20 @@ def _sweep(path: Path) -> int:
         write_all(job.swept, lambda kind, path: writers[kind](path))
     _print(told, [], job.swept)
     return INTERRUPTED if diagram.interrupted else 0
+
+
+def _validate(given: argparse.Namespace) -> int:
+    from .validation import validate  # which loads half of scipy
+
+    if given.csv is not None:
+        check_path(given.csv, [".csv"])
+    validation = validate(given.topics)
+    notes = []
+    if given.csv is not None:
+        validation.to_csv(given.csv)
+        notes.append(f"wrote {given.csv}")
+    _print(validation.summary, notes, [])
+    return 0 if validation.passed else 1
 
 
 @contextmanager

@@ -44,6 +44,9 @@ TOPICS: dict[str, Callable[[], Iterable[Row]]] = {
 }
 """What makes the rows of each topic, in the order in which they are shown."""
 
+PLURALS = {HOLDS: "hold", SLIP: "slips", DOES_NOT_HOLD: "do not hold", FAILS: "fail"}
+"""The verdicts, as they are counted."""
+
 
 @dataclass(frozen=True)
 class Validation:
@@ -61,12 +64,12 @@ class Validation:
     def counts(self) -> dict[str, int]:
         """How many rows have each verdict."""
         found = Counter(row.verdict for row in self.rows)
-        return {verdict: found[verdict] for verdict in (HOLDS, SLIP, DOES_NOT_HOLD, FAILS)}
+        return {verdict: found[verdict] for verdict in PLURALS}
 
     @property
     def summary(self) -> Group:
         """The tables and a line of counts, to be printed by rich."""
-        told = ", ".join(f"{count} {verdict}" for verdict, count in self.counts.items())
+        told = ", ".join(f"{self.counts[verdict]} {plural}" for verdict, plural in PLURALS.items())
         line = Text(f"{len(self.rows)} rows in {self.seconds:.2g} s: {told}", style="bold")
         return Group(*tables(self.rows), line)
 

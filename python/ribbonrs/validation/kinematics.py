@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from ..arrays import Array
 from .row import PAPER, Row, farthest
 
-__all__ = ["COMPONENTS", "FINE", "Point", "exact", "gradient", "order_row", "orders", "rows", "weak"]
+__all__ = ["COMPONENTS", "Point", "exact", "order_row", "orders", "rows", "weak"]
 
 FINE = 2.0**-8
 """Ratio eta at which orders are measured: remainders of order 4 are 1e-10, far above rounding."""
@@ -61,7 +61,7 @@ def _point(seed: int, eta: float) -> Point:
     return Point(*(rng.uniform(0.3, 1.0, n.shape) * eta**n for n in powers))
 
 
-def gradient(p: Point) -> Array:
+def _gradient(p: Point) -> Array:
     """F of (12) on the directors."""
     (X1, X2), (U1, U2, U3), (k1, k2, k3) = p.X, p.U, p.K
     last = [U3 * k2 - (X2 + U2) * k3, -U3 * k1 + (X1 + U1) * k3, (X2 + U2) * k1 - (X1 + U1) * k2]
@@ -78,12 +78,12 @@ def _green(A: Array) -> Array:
 
 def exact(p: Point) -> Array:
     """The strain of F G^-1."""
-    return _green(gradient(p) @ np.linalg.inv(np.eye(3) + p.g))
+    return _green(_gradient(p) @ np.linalg.inv(np.eye(3) + p.g))
 
 
 def _short(p: Point) -> Array:
     """The strain of F (I - g)."""
-    return _green(gradient(p) @ (np.eye(3) - p.g))
+    return _green(_gradient(p) @ (np.eye(3) - p.g))
 
 
 def weak(p: Point) -> Array:
@@ -155,7 +155,7 @@ FULL = {"11": 72, "12": 73, "22": 74, "13": 75, "23": 76, "33": 77}
 def rows() -> Iterator[Row]:
     """Yield the identities and the orders of what is left out."""
     points = [_point(seed, 1.0) for seed in range(20)]
-    moved = farthest([_by_cross_products(p) for p in points], [gradient(p) for p in points])
+    moved = farthest([_by_cross_products(p) for p in points], [_gradient(p) for p in points])
     yield Row("F from the moving frame", f"{PAPER}, (11)-(12)", *moved, 2e-15)
     full = np.array([_printed_full(p) for p in points])
     short = np.array([_short(p) for p in points])

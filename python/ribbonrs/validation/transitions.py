@@ -21,7 +21,7 @@ from scipy.optimize import brentq, newton, root  # type: ignore[import-untyped]
 from .. import growth
 from ..arrays import Array
 from ..continuation import trace
-from ..equilibrium import SERIES_RADIUS
+from ..equilibrium import SERIES_RADIUS, natural_shapes
 from ..law import SectionLaw
 from ..ribbon import Ribbon
 from ..scene import Scene
@@ -108,7 +108,10 @@ def _states() -> Iterator[Row]:
     yield Row("K3/eta of the helix, xi = 6 eta^2, omega = 0.2", ROOT, k3, helix[1], 1e-10, SOLVED)
 
     law = SectionLaw(ETA, growth.edge(6.0 * ETA**2))
-    twisted = [5.0 / 3.0 * ETA**2, 0.0, 0.0, sqrt(8.0) * ETA]
+    twisted = next(s.strains[0] for s in natural_shapes(LEAF, law.growth) if s.phase == "twisted")
+    yield Row("eps/eta^2 of twisted ribbons", CLOSED, 5.0 / 3.0, twisted[0] / ETA**2, 1e-14)
+    C = twisted[3] ** 2 / (2.0 * ETA**2) - 24.0
+    yield Row("C/eta^2 of twisted ribbons", CLOSED, -20.0, C, 1e-13)
     stiffness = float(law.hessian(twisted)[2, 2]) / ETA**2
     yield Row("dm2/dK2 / eta^2 of twisted ribbons", CLOSED, -1.0 / 84.0, stiffness, 1e-14)
 

@@ -132,7 +132,12 @@ def _validate(given: argparse.Namespace) -> int:
     validation = validate(given.topics)
     notes = []
     if given.csv is not None:
-        validation.to_csv(given.csv)
+        try:
+            validation.to_csv(given.csv)
+        except OSError as error:
+            raise InputError(
+                "path", str(given.csv), f"a file that can be written, not: {error.strerror}"
+            ) from None
         notes.append(f"wrote {given.csv}")
     _print(validation.summary, notes, [])
     return 0 if validation.passed else 1

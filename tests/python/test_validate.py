@@ -11,6 +11,7 @@ from ribbonrs.cli import main
 from ribbonrs.validation import (
     TOPICS,
     Row,
+    Validation,
     classical,
     elasticity,
     frame,
@@ -186,3 +187,14 @@ def test_wrong_input_is_one_line(capsys, arguments, told, tmp_path, monkeypatch)
     assert shown == ""
     assert errors.startswith(f"ribbonrs: {told}")
     assert errors.count("\n") == 1
+
+
+def test_a_table_that_cannot_be_written_is_one_line(capsys, tmp_path, monkeypatch):
+    def full(*arguments, **named):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(Validation, "to_csv", full)
+    assert main(["validate", "frame", "--csv", "a.csv"]) == 2
+    told = "path = 'a.csv': expected a file that can be written, not: No space left on device"
+    assert capsys.readouterr().err == f"ribbonrs: {told}\n"

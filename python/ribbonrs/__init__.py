@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from .locus import Locus, trace_locus
     from .parameter import parameters
     from .phasediagram import PhaseDiagram, load_phase_diagram, phase_diagram
+    from .validation import validate
 
 __all__ = [
     "Clamped",
@@ -75,6 +76,7 @@ __all__ = [
     "solve",
     "trace",
     "trace_locus",
+    "validate",
     "weight",
 ]
 
@@ -90,6 +92,7 @@ LATER = {
     "phase_diagram": ".phasediagram",
     "trace": ".continuation",
     "trace_locus": ".locus",
+    "validate": ".validation",
 }
 """Names that are loaded when they are first used, from these modules."""
 

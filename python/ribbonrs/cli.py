@@ -1,7 +1,7 @@
-"""The command line: ``ribbonrs run SCENE.toml``, ``trace`` and ``sweep`` likewise, and ``ribbonrs figures``.
+"""The command line: ``ribbonrs run``, ``trace`` and ``sweep`` of a scene file, ``figures`` and ``validate``.
 
 Exit status 0, or 2 for wrong input, 1 where no solution was found, 130 after an interrupt; the reason is one
-line on stderr.
+line on stderr. Also 1 where a row of the validation fails.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from rich.console import Console, RenderableType
 
 from .equilibrium import chosen, equilibria, solve
 from .errors import MISSING, InputError, RibbonError, RibbonWarning
+from .files import check_path
 from .outputs import Output, write_all
 from .scenefile import read
 from .summary import summary
@@ -70,6 +71,10 @@ def _parser() -> argparse.ArgumentParser:
     added.add_argument("--directory", type=Path, default=Path("figures"), help="made if it does not exist")
     added.add_argument("--format", nargs="+", default=["pdf", "png"], help="pdf, png, svg")
     added.set_defaults(command=_figures)
+    added = commands.add_parser("validate", help="compare what is published with what the program gives")
+    added.add_argument("topics", nargs="*", metavar="TOPIC", help="which part of it; all if none is named")
+    added.add_argument("--csv", type=Path, metavar="PATH", help="write the table as comma-separated values")
+    added.set_defaults(command=_validate)
     return parser
 
 
@@ -137,20 +142,37 @@ def _figures(given: argparse.Namespace) -> int:
     try:
         given.directory.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise _unwritable(given.directory, error) from None
+        raise _unwritable("directory", given.directory, error) from None
     for name in dict.fromkeys(given.names or FIGURES):
         drawing = FIGURES[name]()
         try:
             written = drawing.save(given.directory, given.format)
         except OSError as error:
-            raise _unwritable(given.directory, error) from None
+            raise _unwritable("directory", given.directory, error) from None
         for path in written:
             print(f"wrote {path}", flush=True)
     return 0
 
 
-def _unwritable(directory: Path, error: OSError) -> InputError:
-    return InputError("directory", str(directory), f"one that can be written, not: {error.strerror}")
+def _validate(given: argparse.Namespace) -> int:
+    from .validation import validate  # which loads half of scipy
+
+    if given.csv is not None:
+        check_path(given.csv, [".csv"])
+    validation = validate(given.topics)
+    notes = []
+    if given.csv is not None:
+        try:
+            validation.to_csv(given.csv)
+        except OSError as error:
+            raise _unwritable("csv", given.csv, error) from None
+        notes.append(f"wrote {given.csv}")
+    _print(validation.summary, notes, [])
+    return 0 if validation.passed else 1
+
+
+def _unwritable(field: str, path: Path, error: OSError) -> InputError:
+    return InputError(field, str(path), f"one that can be written, not: {error.strerror}")
 
 
 @contextmanager

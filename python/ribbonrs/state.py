@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,7 +16,7 @@ from numpy.typing import ArrayLike
 from .arrays import Array, real_array
 from .course import Course, Held
 from .ends import pose
-from .errors import InputError
+from .errors import InputError, RibbonWarning
 from .frame import directors
 from .helix import Helix
 from .law import SectionLaw
@@ -317,6 +318,38 @@ class State:
             load_potential=self.load_potential * unit_force,
             helix=None if helix is None else helix.scaled(a),
         )
+
+    @cached_property
+    def neglected(self) -> float:
+        r"""How large the strains are that the theory neglects, relative to those that it balances.
+
+        :math:`|E - e| / \max(|e|, |e_g|)`, root mean squares over the body, weighed by their energy: E the
+        exact strains of the body that the state describes, e those of the section law, and e_g what growth
+        would strain the ribbon if it were held flat and straight, for where growth fits the shape little
+        stress is left. It is of order (thickness/width)^2 in a ribbon that is the same all along, and
+        of order width over the length of what varies. The elastic energy is right to twice that part or
+        better. It knows nothing of how ends, free edges in twist and jumps disturb the body within about a
+        width. Computed when first asked for. See `ribbonrs.neglected`.
+
+        Raises
+        ------
+        InputError
+            For a `LinearLaw`, which says nothing of sections.
+
+        Warns
+        -----
+        RibbonWarning
+            Above 0.25.
+        """
+        from .neglected import STRETCHED, neglected
+
+        part = neglected(self)
+        if part > STRETCHED:
+            message = (
+                f"neglected = {part:.2g}: strains that the theory neglects are not small against its own"
+            )
+            warnings.warn(message, RibbonWarning, stacklevel=3)
+        return part
 
     def plot(self, path: str | PathLike[str] | None = None) -> Figure:
         """Draw the ribbon in space and its cross-section; write the figure to `path` if given.

@@ -123,7 +123,7 @@ class Body:
         E = 0.5 * (np.swapaxes(A, 1, 2) @ A - np.eye(3))
         return E[:, 2, 2], E[:, 1, 1], E[:, 1, 2]
 
-    def energies(self, n: int = 16) -> tuple[float, float]:
+    def energies(self, n: int = 12) -> tuple[float, float]:
         """Twice the energies, per length, of what the strains differ by and of the theory's."""
         Q33, Q22, Q23, G = self.stiffness
         half = self.state.scene.ribbon.thickness_ratio * self.thickness(self.S) / 2

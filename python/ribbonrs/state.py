@@ -324,12 +324,12 @@ class State:
         r"""How large the strains are that the theory neglects, relative to those that it balances.
 
         :math:`|E - e| / \max(|e|, |e_g|)`, root mean squares over the body, weighed by their energy: E the
-        exact strains of the body that the state describes, e those of the section law, and e_g what growth
-        would strain the ribbon if it were held flat and straight, for where growth fits the shape little
-        stress is left. It is of order (thickness/width)^2 in a ribbon that is the same all along, and
-        of order width over the length of what varies. The elastic energy is right to twice that part or
-        better. It knows nothing of how ends, free edges in twist and jumps disturb the body within about a
-        width. Computed when first asked for. See `ribbonrs.neglected`.
+        exact strains of the body that the state describes, e those of the section law, and e_g those that
+        the growth would cause in a ribbon held flat and straight, since where growth fits the shape hardly
+        any stress is left. Of order (thickness/width)^2 where all sections are alike, and of order width over
+        length where they vary within that length. The energy is off by about as much; that of twist by
+        another 0.63 thickness/width, from the free edges, of which this knows nothing, nor of what ends and
+        jumps do to the ribbon within about a width. Computed when first asked for: see `docs/validity.md`.
 
         Raises
         ------

@@ -70,6 +70,12 @@ def test_in_isotropic_strips_each_kind_of_wave_comes_first_where_it_is_longest(n
         assert (np.diff(growth) > 0).all()
 
 
+def test_soft_in_shear_waves_of_bending_come_earlier_if_short_but_after_twist():
+    soft = (1.0, 1.0, 0.0, 0.015)
+    short, long = threshold(2.0, False, soft), threshold(0.0, False, soft)
+    assert threshold(0.0, True, soft) < 0.1 * short < 0.1 * long
+
+
 @pytest.mark.parametrize("twist", [False, True])
 @pytest.mark.parametrize("k", [0.02, 1.0, 5.0])
 def test_twelve_functions_are_enough(k, twist):

@@ -260,9 +260,8 @@ def _body(state: State) -> _Body:
     places = across(_breaks(shapes), degree, 1.0 / (1.0 + math.sqrt(sharpest)))
     x = places.x
     shape = (*S.shape, x.size)
-    u, slope, curvature = (
-        np.reshape([law.deflection(strain, x, order, s) for strain, s in sections], shape)
-        for order in range(3)
+    slope, curvature = (
+        np.reshape([law.deflection(strain, x, order, s) for strain, s in sections], shape) for order in (1, 2)
     )
     moved = np.reshape([law.displacements(strain, x, s) for strain, s in sections], (*shape, 3))
     grown, slopes = (
@@ -282,7 +281,7 @@ def _body(state: State) -> _Body:
         thinning=1.0 if isinstance(material, Orthotropic) else nu / (1.0 - nu),
         width=width,
         strains=(eps, K1, K2, K3),
-        u1=(u, slope, curvature),
+        u1=(moved[..., 0], slope, curvature),
         u2=moved[..., 1],
         u3=moved[..., 2],
         growth=grown,

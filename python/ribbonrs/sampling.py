@@ -25,8 +25,11 @@ SECTIONS = 5
 STEP = 1 / 8
 """Their distance in widths: what varies within less, as at a jump, is spread over half a width."""
 
-GAUSS = 3
-"""Stations in each stretch of the ribbon, at Gauss points."""
+REACH = STEP * (SECTIONS // 2)
+"""How far a station sees."""
+
+FEWEST, MOST = 3, 12
+"""Gauss points of a stretch of the ribbon: they resolve the polynomials that strains are between breaks."""
 
 
 @dataclass(frozen=True)
@@ -87,15 +90,15 @@ def uniform_station(length: float) -> Stations:
 
 
 def stations(breaks: Array, length: float) -> Stations:
-    """Return stations between breaks from 0 to `length`, but those closer than `STEP` to another."""
+    """Return stations between breaks from 0 to `length`, and within `REACH` of them, where strains may jump.
+
+    Those closer than `STEP` to another count as one.
+    """
     kept = [0.0]
-    for S in breaks:
+    for S in np.unique(np.concatenate([breaks - REACH, breaks, breaks + REACH])):
         if S - kept[-1] >= STEP and length - S >= STEP:
             kept.append(float(S))
-    ends = np.array([*kept, length])
-    t, w = leggauss(GAUSS)
-    half = 0.5 * np.diff(ends)[:, None]
-    middles = (0.5 * (ends[:-1] + ends[1:])[:, None] + half * t).ravel()
+    middles, weights = map(np.concatenate, zip(*map(_stretch, kept, [*kept[1:], length]), strict=True))
     step = min(STEP, length / (SECTIONS + 1))
     last = SECTIONS - 1
     left, right = (np.floor(room / step).astype(np.int64) for room in (middles, length - middles))
@@ -105,7 +108,14 @@ def stations(breaks: Array, length: float) -> Stations:
     slopes = np.stack([polyval(places, polyder(power)) for power in powers], axis=1)
     derivative = slopes @ np.linalg.inv(np.vander(places, increasing=True)) / step
     sections = np.clip(middles[:, None] + step * (places - at[:, None]), 0.0, length)
-    return Stations(sections, at, (half * w).ravel(), derivative)
+    return Stations(sections, at, weights, derivative)
+
+
+def _stretch(start: float, end: float) -> tuple[Array, Array]:
+    """Gauss points of a stretch, two for each width, and their weights."""
+    t, w = leggauss(min(MOST, FEWEST + math.ceil(2 * (end - start))))
+    half = 0.5 * (end - start)
+    return start + half * (1.0 + t), half * w
 
 
 def across(breaks: Sequence[float], degree: int, layer: float) -> Across:
@@ -117,7 +127,7 @@ def across(breaks: Sequence[float], degree: int, layer: float) -> Across:
 
 def _piece(start: float, end: float, degree: int, layer: float) -> tuple[Array, Array, Array]:
     """Gauss points, whose distance at the ends falls with the square of their number."""
-    count = 4 + degree + math.ceil(6 * math.sqrt((end - start) / layer))
+    count = 2 + degree + math.ceil(6 * math.sqrt((end - start) / layer))
     t, w = leggauss(count)
     half = 0.5 * (end - start)
     values = legvander(t, count - 1)

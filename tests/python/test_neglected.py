@@ -216,6 +216,20 @@ def test_grows_as_loads_get_closer():
     assert (np.diff(parts) > 0).all()
 
 
+def test_a_jump_counts_wherever_it_is():
+    """It is spread over half a width, which stations do not miss; a longer ribbon shares it among more."""
+
+    def jump(S, length=10.0):
+        half = rb.growth.edge(([0, S, S, length], [0, 0, 0.06, 0.06]))
+        with pytest.warns(rb.RibbonWarning, match="^neglected = "):
+            return unloaded(half, rb.Ribbon(length, 1.0, 0.1)).neglected
+
+    parts = np.array([jump(S) for S in (4.0, 4.03, 5.0, 5.11)])
+    # of the square, as large on all, by the length that has grown
+    assert parts**2 * (10 - np.array([4.0, 4.03, 5.0, 5.11])) == pytest.approx(parts[0] ** 2 * 6, rel=0.15)
+    assert jump(10.0, 20.0) == pytest.approx(parts[2] / np.sqrt(2), rel=0.05)
+
+
 def test_does_not_tell_mirror_images_apart():
     growth = rb.growth.edge(0.06)
     one, other = (state.neglected for state in rb.natural_shapes(LEAF, growth) if state.phase == "bent")

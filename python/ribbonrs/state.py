@@ -329,7 +329,8 @@ class State:
         any stress is left. Of order (thickness/width)^2 where all sections are alike, and of order width over
         length where they vary within that length. The energy is off by about as much; that of twist by
         another 0.63 thickness/width, from the free edges, of which this knows nothing, nor of what ends and
-        jumps do to the ribbon within about a width. Computed when first asked for: see `docs/validity.md`.
+        jumps do to the ribbon within about a width. It is 0 of strains within the error of the solution.
+        Computed when first asked for: see `docs/validity.md`.
 
         Raises
         ------

@@ -86,6 +86,7 @@ def test_summary_shows_the_state_in_both_units(scene, capsys):
         assert [float(number) for number in rows[row]] == pytest.approx([value, value * unit], rel=1e-5)
     assert "helical, right-handed" in screen
     assert "stable (section_index 0)" in screen
+    assert re.search(rf"^neglected +{100 * state.neglected:.2g} % of the strains", screen, re.MULTILINE)
     others = [other for other in rb.natural_shapes(leaf, growth) if (other.strain != state.strain).any()]
     table = screen[screen.index("other equilibria") :].splitlines()[4:]
     shapes = [line.split(",")[0].strip() for line in table[: len(others)]]

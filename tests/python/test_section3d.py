@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 import ribbonrs as rb
+from foppl_von_karman import isotropic, threshold
+from scipy.optimize import brentq
 from section3d import Section
 
 NU = 0.3
@@ -90,6 +92,37 @@ def test_twisted_sections_are_off_by_the_edges_of_saint_venants_bar():
     # Corners of the section and the product of both parts: between second and third order is not told apart.
     assert rest[1] < 0.4 * rest[0]
     assert rest[2] < 0.4 * rest[1]
+
+
+def onset(strain, long_waves, eta):
+    """xi/eta^2 at which the flat body loses its stiffness against K2 (2) or K3 (3)."""
+
+    def stiffness(scaled):
+        xi, step, curvature = scaled * eta**2, 1e-2 * eta**2, 0.05 * eta
+        body = Section(eta, NU, tensor(rb.growth.edge(xi)), through=4, across=20)
+
+        def energy(eps, strains=(0.0, 0.0, 0.0)):
+            return body.energy([eps, *strains], tol=1e-15)
+
+        below, flat, above = (energy(xi / 3 + n * step) for n in (-1, 0, 1))
+        eps = xi / 3 - step * (above - below) / 2 / (above - 2 * flat + below)  # no force
+        bent = np.zeros(3)
+        bent[strain - 1] = curvature
+        return (energy(eps, bent) - energy(eps)) / curvature**2 / eta**2
+
+    return brentq(stiffness, 0.85 * long_waves, 1.05 * long_waves, xtol=1e-4)
+
+
+def test_thresholds_of_the_body():
+    """Bending later by second order; twist earlier by EDGE eta and second order."""
+    for strain, twist, first in ((2, False, 0.0), (3, True, -EDGE)):
+        limit = threshold(0.0, twist, isotropic(NU))
+        off = np.array([onset(strain, limit, eta) for eta in ETAS]) / limit - 1
+        told = {2: [0.0108, 0.0026, 0.0007], 3: [-0.019, -0.020, -0.013]}[strain]
+        assert off == pytest.approx(told, abs=5e-5 if strain == 2 else 5e-4)
+        rest = off - first * ETAS
+        # What curvatures of 0.05 eta add is below 1e-4.
+        assert rest[:-1] / rest[1:] == pytest.approx(4.0, rel=0.15)
 
 
 SHAPES = {

@@ -84,13 +84,14 @@ def _run(given: argparse.Namespace) -> int:
         states = [] if job.scene.loaded else equilibria(job.scene)
         state = chosen(states) if states else solve(job.scene, **job.options)
         others = [other for other in states if other is not state]
+        told = summary(job.scene, state, others)
         write_all(job.outputs, lambda kind, path: (state.plot if kind == "figure" else state.save)(path))
     notes = [
         f"`ribbonrs {name}` draws the {what} that [{name}] asks for."
         for name, what, asked in (("trace", "branches", job.trace), ("sweep", "phases", job.sweep))
         if asked
     ]
-    _print(summary(job.scene, state, others), notes, job.outputs)
+    _print(told, notes, job.outputs)
     return 0
 
 

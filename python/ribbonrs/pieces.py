@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.polynomial.legendre import legadd, leggauss, legmulx, legval, legvander
+from numpy.polynomial.legendre import legadd, legder, leggauss, legmulx, legval, legvander
 from numpy.typing import ArrayLike
 
 from .arrays import Array
@@ -70,6 +70,19 @@ class Pieces:
         for piece, coefficients in enumerate(self.coefficients):
             columns[: len(coefficients), piece] = coefficients
         return columns
+
+    @property
+    def derivative(self) -> Pieces:
+        """The derivative on each piece."""
+        return Pieces(
+            self.breaks,
+            tuple(
+                tuple((legder(piece) * 2.0 / (end - start)).tolist())
+                for piece, start, end in zip(
+                    self.coefficients, self.breaks[:-1], self.breaks[1:], strict=True
+                )
+            ),
+        )
 
     def scaled(self, factor: float) -> Pieces:
         """Return `factor` times the function."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,7 +16,7 @@ from numpy.typing import ArrayLike
 from .arrays import Array, real_array
 from .course import Course, Held
 from .ends import pose
-from .errors import InputError
+from .errors import InputError, RibbonWarning
 from .frame import directors
 from .helix import Helix
 from .law import SectionLaw
@@ -317,6 +318,39 @@ class State:
             load_potential=self.load_potential * unit_force,
             helix=None if helix is None else helix.scaled(a),
         )
+
+    @cached_property
+    def neglected(self) -> float:
+        r"""How large the strains are that the theory neglects, relative to those that it balances.
+
+        :math:`|E - e| / \max(|e|, |e_g|)`, root mean squares over the body, weighed by their energy: E the
+        exact strains of the body that the state describes, e those of the section law, and e_g those that
+        the growth would cause in a ribbon held flat and straight, since where growth fits the shape hardly
+        any stress is left. Of order (thickness/width)^2 where all sections are alike, and of order width over
+        length where they vary within that length. The energy is off by about as much; that of twist by
+        another 0.63 thickness/width, from the free edges, of which this knows nothing, nor of what ends and
+        jumps do to the ribbon within about a width. It is 0 of strains within the error of the solution.
+        Computed when first asked for: see `docs/validity.md`.
+
+        Raises
+        ------
+        InputError
+            For a `LinearLaw`, which says nothing of sections.
+
+        Warns
+        -----
+        RibbonWarning
+            Above 0.25.
+        """
+        from .neglected import STRETCHED, neglected
+
+        part = neglected(self)
+        if part > STRETCHED:
+            message = (
+                f"neglected = {part:.2g}: strains that the theory neglects are not small against its own"
+            )
+            warnings.warn(message, RibbonWarning, stacklevel=3)
+        return part
 
     def plot(self, path: str | PathLike[str] | None = None) -> Figure:
         """Draw the ribbon in space and its cross-section; write the figure to `path` if given.

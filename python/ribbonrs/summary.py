@@ -29,6 +29,9 @@ __all__ = ["summary"]
 NOISE = 1e-12
 """Components of reactions below this, or the error of the solution, times the largest are shown as 0."""
 
+SLIGHT = 1e-5
+"""Parts below this are not told apart."""
+
 
 def summary(scene: Scene, state: State, others: list[State]) -> Group:
     """Return the summary of `state` and of the `others` that the scene allows, to be printed by rich."""
@@ -62,6 +65,8 @@ def _scene_table(scene: Scene, state: State) -> Table:
         table.add_row("law", _law(scene.law))
     table.add_row("shape", Text(_described(state), style="bold"))
     table.add_row("stability", _stability(state))
+    if not isinstance(scene.law, LinearLaw):
+        table.add_row("neglected", f"{_percent(state.neglected)} of the strains")
     return table
 
 
@@ -159,6 +164,10 @@ def _stability(state: State) -> str:
     if state.section_index == 0:
         return f"unstable (index {state.index:.0f})"
     return f"unstable (section_index {state.section_index})"
+
+
+def _percent(part: float) -> str:
+    return f"{100.0 * part:.2g} %" if part >= SLIGHT else f"less than {100.0 * SLIGHT:g} %"
 
 
 def _state_table(state: State) -> Table:

@@ -181,6 +181,16 @@ class Growth:
                 sums[key] = sums.get(key, np.zeros(shape)) + amplitude * _profile(profile, points)
         return {key: np.asarray(sums[key]) for key in FIELDS if key in sums}
 
+    @property
+    def slopes(self) -> Growth:
+        """The growth whose fields are the derivatives of these in x."""
+        return Growth(
+            tuple(
+                Term(term.name, term.amplitude, tuple((key, _slope(shape)) for key, shape in term.shape))
+                for term in self.terms
+            )
+        )
+
     def size(self, thickness_ratio: float, length: float | None = None) -> float:
         """Return the largest growth strain over the cross-section, and along the ribbon where it varies.
 
@@ -226,6 +236,13 @@ def _profile(shape: Shape, x: Array, left: bool = False) -> Array:
     if isinstance(shape, Pieces):
         return shape.evaluate(x, left)
     return np.asarray(polyval(x, np.array(shape)), dtype=np.float64)
+
+
+def _slope(shape: Shape) -> Shape:
+    """The derivative of a field, on each piece."""
+    if isinstance(shape, Pieces):
+        return shape.derivative
+    return tuple(float(k * c) for k, c in enumerate(shape))[1:] or (0.0,)
 
 
 def _mean(shape: Shape) -> float:

@@ -178,6 +178,17 @@ def test_overflowing_sums_are_refused():
     refuses("growth.d33", lambda: rb.growth.Profile(d33=[1e300], amplitude=1e300))
 
 
+def test_slopes_are_the_derivatives_of_every_field_on_each_piece():
+    growth = rb.growth.Profile(
+        gamma33=[[0.1, 0.2, 0.3], [0.02]], g21=[0.0, 0.05, 0.0, 0.4], d33=[0.3], breaks=[0.1], amplitude=0.5
+    ) + rb.growth.edge(0.06)
+    at = np.array([-0.3, 0.05, 0.1, 0.4])
+    slopes = growth.slopes.values(at)
+    assert slopes["gamma33"] == pytest.approx(np.where(at < 0.1, 0.1 + 0.3 * at, 0.0) + 0.48 * at, abs=1e-15)
+    assert slopes["g21"] == pytest.approx(0.025 + 0.6 * at**2, abs=1e-15)
+    assert slopes["d33"] == pytest.approx(0.0, abs=0.0)
+
+
 def test_values_broadcast():
     growth = rb.growth.edge(0.06) + rb.growth.chiral(([0.0, 10.0], [0.0, 0.1]))
     values = growth.values(np.array([0.0, 0.5]), [[0.0], [5.0], [10.0]])

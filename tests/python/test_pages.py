@@ -36,7 +36,8 @@ def test_examples_run_and_print_what_they_say(page, capsys, tmp_path, monkeypatc
 
 @pytest.mark.parametrize("page", PAGES)
 def test_figures_scenes_and_pages_exist(page):
-    for target in re.findall(r"\]\((?!https?:)([^)#]+)[^)]*\)", PAGES[page]):
+    prose = re.sub(r"^```.*?^```", "", PAGES[page], flags=re.DOTALL | re.MULTILINE)
+    for target in re.findall(r"\]\((?!https?:)([^)#]+)[^)]*\)", prose):
         assert (DOCS / target).exists(), target
 
 

@@ -21,7 +21,7 @@ html_title = "ribbonrs"
 myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 3
 
-# The docstrings say what types are; what stands between single quotes is a link if it is a name of the package.
+# Docstrings say what types are; what stands between single quotes is a link if it is a name of the package.
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"
 default_role = "py:obj"

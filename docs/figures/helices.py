@@ -1,4 +1,4 @@
-"""The energy of edge growth over bending and twist, without and with chirality: the figure of docs/helices.md."""
+"""Energy over bending and twist, without and with chirality: the figure of docs/helices.md."""
 
 from __future__ import annotations
 

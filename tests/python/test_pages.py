@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 import ribbonrs as rb
 from ribbonrs.branch import KINDS
+from ribbonrs.cli import main
 from ribbonrs.growth import FIELDS
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -60,3 +61,21 @@ def test_every_field_of_growth_is_there(field):
 def test_every_end_is_there_with_what_it_takes(end):
     given, *_ = re.findall(rf"^\| `{end.__name__}\((.*?)\)`", PAGES["loads-and-ends"], flags=re.MULTILINE)
     assert given.split(", ") == [field.name for field in fields(end)]
+
+
+def test_every_name_is_in_the_reference():
+    (listed,) = blocks("reference", r"\{eval-rst\}")
+    documented = set(re.findall(r"^\.\. auto\w+:: (?:ribbonrs\.)?([\w.]+)", listed, flags=re.MULTILINE))
+    assert documented >= set(rb.__all__)
+    shapes = {"edge", "thickness", "chiral", "Profile", "stations", "from_csv"}
+    assert documented >= {f"growth.{name}" for name in shapes}
+    assert set(rb.growth.__all__) == shapes | {"FIELDS", "Growth", "Shape", "Term"}
+
+
+def test_every_command_is_in_the_reference(capsys):
+    with pytest.raises(SystemExit):
+        main(["--help"])
+    commands = re.findall(r"^    (\w+)", capsys.readouterr().out, flags=re.MULTILINE)
+    assert {"run", "trace", "sweep"} <= set(commands)
+    for command in commands:
+        assert f"| `ribbonrs {command}" in PAGES["reference"]

@@ -25,6 +25,7 @@ myst_heading_anchors = 3
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"
 default_role = "py:obj"
+smartquotes = False  # "full" is an argument
 SECTIONS = Config(napoleon_google_docstring=False, napoleon_use_rtype=False, napoleon_use_ivar=True)
 
 

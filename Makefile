@@ -1,6 +1,7 @@
 # make demo    build everything into .venv and run the main example
 # make test    every test, Rust and Python
 # make lint    formatting, lints, types and documentation, warnings denied
+# make docs    the documentation site, into target/docs, and its examples
 # make bench   criterion benchmarks
 # make clean   remove what was built
 #
@@ -16,7 +17,7 @@ export VIRTUAL_ENV := $(CURDIR)/.venv
 # maturin refuses two active environments.
 unexport CONDA_PREFIX
 
-.PHONY: venv develop demo test lint bench clean
+.PHONY: venv develop demo test lint docs bench clean
 
 venv: .venv/.tools
 develop: .venv/.develop
@@ -47,6 +48,16 @@ lint: develop
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
 	$(BIN)/python -m mypy.stubtest ribbonrs._core
+
+# The same installation once more, with the tools of the site.
+.venv/.docs: .venv/.develop
+	$(BIN)/maturin develop --release --extras docs
+	touch $@
+
+# -E: pages also change with docstrings.
+docs: .venv/.docs
+	$(BIN)/python -m pytest tests/python/test_pages.py tests/python/test_docstrings.py
+	$(BIN)/python -m sphinx -E -W --keep-going -b html docs target/docs
 
 bench:
 	cargo bench

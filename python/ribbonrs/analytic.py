@@ -4,7 +4,7 @@ Two growths of an isotropic incompressible ribbon (nu = 1/2) have closed forms (
 ribbons: Differential growth-induced curvature and torsion", section 3): growth towards the edges, which
 bends, twists or coils the ribbon (`twist`), and growth graded through the thickness, which bends it
 (`saddle`).
-With z = sqrt(3 |K2| / (2 eta)) both rest on
+With z = sqrt(3 abs(K2) / (2 eta)) both rest on
 
     tau(z) = (2/z) (cosh z - cos z)/(sinh z + sin z),    sigma(z) = (1 - tau)/z^4,
 
@@ -120,7 +120,7 @@ class Twist:
         """Taylor polynomial of `energy` to second order in K2, Liu, Li & Liu, eq. (59).
 
         The same uniform terms, and C^2/360 + K2^2 [eta^2/24 + C/720 - C^2/(20160 eta^2)]. The series it
-        begins converges for |K2|/eta < 7.458.
+        begins converges for abs(K2)/eta < 7.458.
         """
         K2, K3 = _real("K2", K2), _real("K3", K3)
         C = K3**2 / 2 - 4 * self.xi
@@ -189,8 +189,8 @@ class Saddle:
         Pi = (eps + K3^2/24)^2/2 + K1^2/24 + (eta^2/18) K3^2
              + (eta^2/24) kappa^2 + (sigma(z)/32)(K2 kappa + 2 K3^2)^2.
 
-    Published, Liu, Li & Liu, eq. (49) with |K2|^(-1/2) K2 (K2 + 2 xi) for the misprinted root of (50); it is
-    derived for K3 = 0, and a twist adds only torsion and mean stretch:
+    Published, Liu, Li & Liu, eq. (49) with abs(K2)^(-1/2) K2 (K2 + 2 xi) for the misprinted root of (50);
+    it is derived for K3 = 0, and a twist adds only torsion and mean stretch:
 
         Pi = (eps + K3^2/24)^2/2 + K1^2/24
              + (eta^2/18) [K3^2 + (K2 + xi)^2 - K2 (K2 + 2 xi) tau/4].

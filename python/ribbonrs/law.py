@@ -48,7 +48,7 @@ class SectionLaw:
         Only the ratios of its stiffnesses matter here.
     law : str
         "full", or "quadratic": the Taylor polynomial of second order in K2, for edge growth and
-        chirality only; its series converges for |K2| < 7.46 eta.
+        chirality only; its series converges for abs(K2) < 7.46 eta.
 
     Raises
     ------

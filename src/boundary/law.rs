@@ -156,15 +156,15 @@ impl Response {
         }
     }
 
-    /// The direction of least tangent stiffness, relative to that of the ungrown section; `None` for a linear law.
+    /// The direction whose tangent stiffness, relative to that of the ungrown section, is nearest to none; `None` for a linear law.
     #[must_use]
-    pub fn softest(&self, strain: &Strain) -> Option<Strain> {
+    pub fn neutral(&self, strain: &Strain) -> Option<Strain> {
         let Kind::Relaxed(station) = &self.kind else { return None };
         let scale = self.compliance.map(f64::sqrt);
         let scaled = station.evaluate(strain).hessian.component_mul(&(scale * scale.transpose()));
         let eigen = scaled.symmetric_eigen();
-        let least = eigen.eigenvalues.imin();
-        Some(eigen.eigenvectors.column(least).component_mul(&scale))
+        let nearest = eigen.eigenvalues.iamin();
+        Some(eigen.eigenvectors.column(nearest).component_mul(&scale))
     }
 
     /// Strains of the straight and untwisted section that no axial force stretches.

@@ -386,7 +386,7 @@ impl Equations for Held {
             return None;
         }
         let strain = x.x.strains[0];
-        let soft = problem.law.at(0.0).ok()?.softest(&strain)?;
+        let soft = problem.law.at(0.0).ok()?.neutral(&strain)?;
         let size = soft.rows(1, 3).norm() * problem.length;
         let soft = soft / size;
         let turned = turned(&mesh, x, &(soft * TURN))?;

@@ -180,9 +180,13 @@ def test_section_instabilities_of_a_free_ribbon(eta):
     diagram = rb.trace(scene, "growth.edge.amplitude", span, start=start, depth=1, values=values)
     found = places(diagram, "section_instability", 0) / eta**2
     np.testing.assert_allclose(found, [BENDS, 5.0], atol=1e-9, rtol=0.0)
-    flat, bent = diagram.branches
+    flat, bent, twisted = diagram.branches
     assert along(diagram) == [0.0, math.inf]
     assert (bent.mirrored, bent.ended) == (True, ("branch point", "span"))
+    assert (twisted.mirrored, twisted.ended) == (True, ("branch point", "span"))
+    np.testing.assert_array_equal(twisted.section_index[twisted.parameter > 5.001 * eta**2], 1)
+    grown = twisted.parameter / eta**2 - 5.0
+    np.testing.assert_allclose(twisted.strains[:, 3] ** 2, 8.0 * eta**2 * grown, atol=1e-9 * eta**2)
     assert bent.stable[bent.parameter > 4.6 * eta**2].all()
     np.testing.assert_array_equal(flat.section_index[flat.parameter > 5.1 * eta**2], 2)
     points = [p for p in diagram.special_points if p.kind == "value" and p.branch == 1]

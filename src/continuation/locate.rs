@@ -253,6 +253,11 @@ fn located<E: Equations>(
         let middle = at(equations, &low, &high, 0.5 * (high.s - low.s))?;
         if before(&middle) { low = middle } else { high = middle }
     }
+    // Else what changes, changes from one branch to another: also beyond a fold, where the index is another one.
+    let passed = turns && start.index == b.stability.index && start.index != high.stability.index;
+    if passed || gap(equations, &low, &high) > GAP * (high.s - low.s) {
+        return None;
+    }
     let (a, b) = (low.clone(), high.clone());
     // Places are measured along the tangent at a, at right angles to which all points are corrected: b's may be a little less.
     let mut tried: Vec<PointOf<E>> = Vec::new();
@@ -272,10 +277,14 @@ fn located<E: Equations>(
         if tried.len() >= MEMORY && inside && error < EXACT {
             let mut nearest: Vec<&PointOf<E>> = tried.iter().rev().take(MEMORY).collect();
             nearest.sort_by(|p, q| (p.s - place).abs().total_cmp(&(q.s - place).abs()));
+            if gap(equations, &low, &high) > GAP * length.abs().max(NEAREST) {
+                return None;
+            }
             return Some(between_two(equations, nearest[1], nearest[0], place, &a.along));
         }
         if length < NEAREST {
-            return tried.pop();
+            let one = gap(equations, &low, &high) < GAP * NEAREST;
+            return if one { tried.pop() } else { None };
         }
         // Around the root, not at it: there the equations are singular, and another branch is as near.
         let near = tried.iter().filter(|point| (point.s - place).abs() < 2.0 * spread).count();
@@ -310,6 +319,14 @@ fn located<E: Equations>(
     None
 }
 
+/// How far apart two points are in space.
+fn gap<E: Equations>(equations: &mut E, a: &PointOf<E>, b: &PointOf<E>) -> f64 {
+    let [from, to] = [a, b].map(|point| equations.coordinates(&point.x, point.t));
+    from.iter().zip(&to).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
+}
+
+/// The same over how far they are apart along a branch, at most.
+const GAP: f64 = 3.0;
 /// An interval in which places are measured along its first tangent.
 const SHORT: f64 = 0.05;
 /// Values by which a root is interpolated, and how far around it they are taken.

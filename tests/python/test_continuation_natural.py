@@ -124,6 +124,22 @@ def test_the_helix_that_is_printed():
     assert helix.stable
 
 
+@pytest.mark.parametrize("omega", [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8])
+def test_a_pitchfork_that_is_hardly_unfolded(omega):
+    # both hands pass within omega^(1/3) of each other, and none goes over to the other's branch
+    diagram = edge(0.1, omega=omega)
+    own, _, other = diagram.branches
+    roots = np.sort(np.roots([1.0, 0.0, 8.0 * (5.0 - 8.0), -20.0 * omega]).real)
+    assert own.strains[-1, 3] / 0.1 == pytest.approx(roots[2], rel=1e-9)
+    assert (own.strains[:, 3] > 0.0).all()
+    np.testing.assert_allclose(np.sort(other.strains[[0, -1], 3]) / 0.1, roots[:2], rtol=1e-6, atol=1e-13)
+    assert (other.strains[:, 3] < 0.0).all()
+    (fold,) = places(diagram, "fold", other.number) / 0.01
+    assert fold == pytest.approx(5.0 + 0.375 * (20.0 * omega) ** (2.0 / 3.0), abs=8.0 * CLOSE)
+    (bend,) = places(diagram, "branch_point") / 0.01
+    assert bend == pytest.approx(BENDS + (omega / (1.0 + C[0] / 20.0)) ** 2 / 8.0, abs=8.0 * CLOSE)
+
+
 @pytest.mark.parametrize("omega", [0.05, 0.2])
 def test_branches_of_their_own_are_found_from_the_upper_end(omega):
     # twisted against the chirality: C = -20 (1 - omega/k3), least xi at k3^3 = -20 omega

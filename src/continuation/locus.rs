@@ -5,8 +5,9 @@
 
 use super::branch::{Ended, Limits, SpecialKind};
 use super::correct::{DirectionOf, Guess, PointOf, corrected};
-use super::equations::{Direction, Equations, Failed};
+use super::equations::{Direction, Equations, Failed, dot};
 use super::locate::{Found, special_points};
+use super::switch::across;
 
 /// Equations of two parameters, one of which is followed.
 pub trait Plane: Equations {
@@ -25,8 +26,8 @@ pub struct Locus<S> {
 }
 
 /// Half the piece of a branch in which a special point is looked for, and how often it is doubled.
-const REACH: f64 = 0.02;
-const DOUBLINGS: usize = 4;
+const REACH: f64 = 2e-4;
+const DOUBLINGS: usize = 10;
 /// The part of it in which it is to be.
 const INSIDE: f64 = 0.7;
 /// The first step of the second parameter, the longest, and one that is too short.
@@ -34,14 +35,18 @@ const FIRST: f64 = 1e-3;
 const LONGEST: f64 = 0.05;
 const SHORTEST: f64 = 1e-5;
 /// Error of a predicted place that steps are made for.
-const ERROR: f64 = 5e-3;
+const ERROR: f64 = 5e-4;
 /// Steeper than this the parameters change places.
 const STEEP: f64 = 2.0;
 
-/// Where the curve is: the special point, and the two parameters in their own order.
+/// Where the curve is: the special point, the two parameters in their own order, and the direction of what branches off there, which
+/// tells it from other special points.
 struct Here<E: Equations> {
     point: PointOf<E>,
     place: [f64; 2],
+    off: Option<DirectionOf<E>>,
+    /// By how much the index changes, if that is known.
+    multiplicity: Option<usize>,
 }
 
 /// Follows the special point both ways.
@@ -56,7 +61,7 @@ pub fn locus<E: Plane>(
     let (ahead, end) = walked(equations, start, first, kind, 1.0, limits);
     let (back, begin) = walked(equations, start, first, kind, -1.0, limits);
     let mut locus = Locus { places: Vec::new(), states: Vec::new(), ended: [begin, end] };
-    let own = Here::<E> { point: start.clone(), place: first };
+    let own = Here::<E> { point: start.clone(), place: first, off: None, multiplicity: None };
     for here in back.into_iter().rev().chain([own]).chain(ahead) {
         locus.places.push(here.place);
         locus.states.push(here.point.x);
@@ -73,7 +78,9 @@ fn walked<E: Plane>(
     limits: &Limits,
 ) -> (Vec<Here<E>>, Ended) {
     let mut found: Vec<Here<E>> = Vec::new();
-    let mut here = Here::<E> { point: start.clone(), place };
+    equations.hold(place[1], false);
+    let off = direction(equations, start, kind);
+    let mut here = Here::<E> { point: start.clone(), place, off, multiplicity: None };
     // Which parameter is held, and how fast the other changes with it.
     let (mut held, mut slope, mut sense) = (1_usize, 0.0_f64, sense);
     let mut step = FIRST;
@@ -89,7 +96,7 @@ fn walked<E: Plane>(
         let moved = next - now;
         let expected = here.place[1 - held] + slope * moved;
         equations.hold(next, held == 0);
-        let Some(point) = near(equations, &here.point, slope * moved, kind, limits) else {
+        let Some((point, off, multiplicity)) = near(equations, &here, slope * moved, kind, limits) else {
             step *= 0.5;
             if step < SHORTEST {
                 return (found, Ended::Failed(Failed::Jumped));
@@ -106,9 +113,9 @@ fn walked<E: Plane>(
         }
         slope = (point.t - here.place[1 - held]) / moved;
         step = (step * (ERROR / error.max(1e-6)).sqrt().clamp(0.5, 2.0)).min(LONGEST);
-        here = Here { point, place };
+        here = Here { point, place, off, multiplicity: Some(multiplicity) };
         let outside = !(0.0..=1.0).contains(&here.place[1 - held]);
-        found.push(Here { point: here.point.clone(), place });
+        found.push(Here { point: here.point.clone(), place, off: None, multiplicity: None });
         if outside {
             return (found, Ended::Span);
         }
@@ -125,14 +132,25 @@ fn walked<E: Plane>(
     (found, Ended::Steps)
 }
 
+/// The direction of what branches off at a branch point.
+fn direction<E: Plane>(equations: &mut E, point: &PointOf<E>, kind: SpecialKind) -> Option<DirectionOf<E>> {
+    match kind {
+        SpecialKind::BranchPoint => across(equations, point, 1).into_iter().next(),
+        _ => None,
+    }
+}
+
+/// Cosine of the angle between such directions of the same curve, at least.
+const ALIKE: f64 = 0.95;
+
 /// The special point near another, where the followed parameter is expected to be by `shift` greater.
 fn near<E: Plane>(
     equations: &mut E,
-    last: &PointOf<E>,
+    Here { point: last, off, multiplicity, .. }: &Here<E>,
     shift: f64,
     kind: SpecialKind,
     limits: &Limits,
-) -> Option<PointOf<E>> {
+) -> Option<(PointOf<E>, Option<DirectionOf<E>>, usize)> {
     let mut reach = REACH;
     for _ in 0..=DOUBLINGS {
         let sides = [-reach, reach].map(|s| {
@@ -149,8 +167,13 @@ fn near<E: Plane>(
         let found = special_points(equations, &before, &after, &within).unwrap_or_default();
         // Near an end of the piece that end is nearly singular, and may be on another branch.
         let inside = |special: &Found<E>| special.kind == kind && special.point.s.abs() < INSIDE * reach;
-        if let Some(special) = found.into_iter().find(inside) {
-            return Some(special.point);
+        for Found { point, multiplicity: count, .. } in found.into_iter().filter(inside) {
+            let here = direction(equations, &point, kind);
+            let alike =
+                off.as_ref().zip(here.as_ref()).is_none_or(|(a, b)| dot(equations, a, b).abs() > ALIKE);
+            if alike && multiplicity.is_none_or(|known| known == count) {
+                return Some((point, here, count));
+            }
         }
         reach *= 2.0;
     }

@@ -129,7 +129,7 @@ def test_a_pitchfork_that_is_hardly_unfolded(omega):
     # both hands pass within omega^(1/3) of each other, and none goes over to the other's branch
     diagram = edge(0.1, omega=omega)
     own, _, other = diagram.branches
-    roots = np.sort(np.roots([1.0, 0.0, 8.0 * (5.0 - 8.0), -20.0 * omega]).real)
+    roots = np.sort(np.roots([1.0, 0.0, 8.0 * (5.0 - 8.0), -40.0 * omega]).real)
     assert own.strains[-1, 3] / 0.1 == pytest.approx(roots[2], rel=1e-9)
     assert (own.strains[:, 3] > 0.0).all()
     np.testing.assert_allclose(np.sort(other.strains[[0, -1], 3]) / 0.1, roots[:2], rtol=1e-6, atol=1e-13)
@@ -182,6 +182,18 @@ def test_values_and_zeros():
     assert abs(zero.state.strain[2] + 0.2) < 1e-13
     assert zero.parameter == zero.state.scene.growth.values(0.5)["gamma33"]
     assert exact(zero.parameter / 0.01)[0] == pytest.approx(2.0, abs=1e-11)
+
+
+@pytest.mark.parametrize("eta", [0.02, 0.05, 0.08, 0.1])
+@pytest.mark.parametrize(("number", "xi"), [(0, BENDS), (1, 5.0)])
+def test_neighbouring_loci_are_parabolas(eta, number, xi):
+    scene = rb.Scene(leaf(eta), rb.growth.edge(0.0))
+    diagram = rb.trace(scene, "growth.edge.amplitude", (0.0, 0.08), depth=0)
+    point = [p for p in diagram.special_points if p.kind == "branch_point"][number]
+    locus = rb.trace_locus(diagram, point, "ribbon.thickness", (0.02, 0.1))
+    assert locus.ended == ("span", "span")
+    growth, thickness = locus.values.T
+    np.testing.assert_allclose(growth, xi * thickness**2, atol=CLOSE * 0.08, rtol=0.0)
 
 
 # --- the same as a boundary-value problem

@@ -16,6 +16,7 @@ from .fig5 import fig5
 from .fig6 import fig6
 from .fig7_8 import fig7, fig8
 from .fig9 import fig9
+from .fig10 import fig10
 
 __all__ = [
     "FIGURES",
@@ -27,6 +28,7 @@ __all__ = [
     "fig7",
     "fig8",
     "fig9",
+    "fig10",
 ]
 
 FIGURES: dict[str, Callable[..., Drawing]] = {
@@ -37,5 +39,6 @@ FIGURES: dict[str, Callable[..., Drawing]] = {
     "fig7": fig7,
     "fig8": fig8,
     "fig9": fig9,
+    "fig10": fig10,
 }
 """Every figure by its name, in the order of the paper."""

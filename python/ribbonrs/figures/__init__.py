@@ -17,6 +17,8 @@ from .fig6 import fig6
 from .fig7_8 import fig7, fig8
 from .fig9 import fig9
 from .fig10 import fig10
+from .fig12 import fig12
+from .phase_plane import phase_plane
 
 __all__ = [
     "FIGURES",
@@ -29,6 +31,8 @@ __all__ = [
     "fig8",
     "fig9",
     "fig10",
+    "fig12",
+    "phase_plane",
 ]
 
 FIGURES: dict[str, Callable[..., Drawing]] = {
@@ -40,5 +44,7 @@ FIGURES: dict[str, Callable[..., Drawing]] = {
     "fig8": fig8,
     "fig9": fig9,
     "fig10": fig10,
+    "fig12": fig12,
+    "phase_plane": phase_plane,
 }
 """Every figure by its name, in the order of the paper."""

@@ -22,6 +22,7 @@ __all__ = [
     "BENDING",
     "CHIRAL",
     "EDGE",
+    "LENGTH",
     "MIDDLE_BENDING",
     "OMEGA",
     "TWISTING",
@@ -29,7 +30,6 @@ __all__ = [
     "coiling",
     "diagram_of",
     "grown",
-    "instability",
 ]
 
 EDGE, CHIRAL = "growth.edge.amplitude", "growth.chiral.amplitude"
@@ -74,13 +74,3 @@ def diagram_of(eta: float, omega: float, highest: float, points: int = 2) -> Dia
     span = 0.0, highest * eta**2
     values = np.linspace(*span, points).tolist()
     return trace(grown(eta, 0.0, omega), EDGE, span, values=values)
-
-
-def instability(eta: float, omega: float, highest: float) -> float | None:
-    """Return the edge growth at which its stable state loses its stability; None if that is higher."""
-    found = [
-        point.parameter
-        for point in diagram_of(eta, omega, highest).special_points
-        if point.kind == "branch_point" and point.branch == 0
-    ]
-    return min(found, default=None)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import PathPatch
@@ -49,7 +51,8 @@ def draw_phases(axes: Axes, diagram: PhaseDiagram, unit: tuple[float, float] = (
             continue
         shape = path.transformed(Affine2D().scale(*scale))
         if phase in ("flat", "bent"):
-            axes.add_patch(PathPatch(shape, facecolor=colour, edgecolor=colour, linewidth=2.2, zorder=0.7))
+            line: dict[str, Any] = {"linewidth": 2.2, "joinstyle": "round", "zorder": 0.7}
+            axes.add_patch(PathPatch(shape, facecolor=colour, edgecolor=colour, **line))
         else:
             axes.add_patch(PathPatch(shape, facecolor=colour, alpha=TINT, edgecolor="none", zorder=0.5))
     for _, points in scaled_boundaries(diagram):

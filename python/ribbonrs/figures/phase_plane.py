@@ -26,6 +26,7 @@ ACROSS, UP = 12.5, 8.0
 MARGIN = 0.55
 """Of such a step, around the outermost shapes."""
 DETAIL = 0.06
+SEEN = view(elevation=55.0, side=20.0)
 
 
 @styled
@@ -64,7 +65,7 @@ def phase_plane(
     for growth, row in zip(x, states, strict=True):
         for w, state in zip(omega, row, strict=True):
             place = w * unit[0], growth * unit[1]
-            draw_shape(axes, state, PHASES[state.phase], place, view(), DETAIL)
+            draw_shape(axes, state, PHASES[state.phase], place, SEEN, DETAIL)
     _draw_frame(axes, spans, unit, omega, x)
     present = {state.phase for row in states for state in row}
     shown = [
@@ -106,8 +107,8 @@ def _draw_frame(
     """Both axes in their own variables; lengths along them are in widths of the ribbon."""
     (left, right), (low, high) = ((span[0] * u, span[1] * u) for span, u in zip(spans, unit, strict=True))
     axes.set(xlim=(left, right), ylim=(low, high), aspect="equal")
-    axes.set_xticks([w * unit[0] for w in omega], [f"{w:g}" for w in omega])
-    axes.set_yticks([growth * unit[1] for growth in x], [f"{growth:g}" for growth in x])
+    axes.set_xticks([w * unit[0] for w in omega], [f"${w:g}$" for w in omega])
+    axes.set_yticks([growth * unit[1] for growth in x], [f"${growth:g}$" for growth in x])
     axes.set(xlabel=r"chirality $\omega$", ylabel=r"edge growth $\xi/\eta^2$")
 
 

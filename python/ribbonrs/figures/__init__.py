@@ -17,6 +17,7 @@ from .fig6 import fig6
 from .fig7_8 import fig7, fig8
 from .fig9 import fig9
 from .fig10 import fig10
+from .fig11 import fig11
 from .fig12 import fig12
 from .phase_plane import phase_plane
 
@@ -31,6 +32,7 @@ __all__ = [
     "fig8",
     "fig9",
     "fig10",
+    "fig11",
     "fig12",
     "phase_plane",
 ]
@@ -44,6 +46,7 @@ FIGURES: dict[str, Callable[..., Drawing]] = {
     "fig8": fig8,
     "fig9": fig9,
     "fig10": fig10,
+    "fig11": fig11,
     "fig12": fig12,
     "phase_plane": phase_plane,
 }

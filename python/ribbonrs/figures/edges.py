@@ -25,6 +25,7 @@ __all__ = [
     "LENGTH",
     "MIDDLE_BENDING",
     "OMEGA",
+    "PAPER_COILS",
     "TWISTING",
     "chirality_of",
     "coiling",
@@ -44,6 +45,8 @@ BENDING, MIDDLE_BENDING = -SOFT / 4.0, -SOFT_MIDDLE / 4.0
 """xi/eta^2 at which a flat ribbon bends, if its edges grow and if its middle does: there C = -4 xi."""
 TWISTING = 5.0
 """xi/eta^2 at which a flat ribbon that is kept from bending twists, eq. (64)."""
+PAPER_COILS = 5.2, 5.4
+"""xi/eta^2 between which ribbons turn from twisted to helical according to the paper."""
 
 
 def coiling(omega: Array, edges: bool = True) -> Array:

@@ -27,8 +27,6 @@ __all__ = ["fig10"]
 POINTS = 81
 """Edge growths at which branches are solved for."""
 MARKS = {"branch_point": "o", "fold": "s"}
-PAPER_COILS = 5.2, 5.4
-"""Edge growths over eta^2 between which the paper's ribbons turn from twisted to helical."""
 QUANTITIES = {"K3": "twist $K_3$", "K2": "curvature $K_2$"}
 # K1 broad and grey: K2 = 0 lies on it where the ribbon is twisted.
 CURVATURES: dict[str, dict[str, Any]] = {
@@ -224,7 +222,7 @@ def _caption(eta: float, omega: float, perfect: Diagram, unfolded: Diagram) -> s
     coil = [point.parameter for point in unfolded.special_points if point.kind == "branch_point"]
     onsets = ", ".join(f"xi = {xi:.6g} = {xi / eta**2:.5g} eta^2" for xi in flat) or "none in the diagram"
     coils = f"at xi = {coil[0]:.6g} = {coil[0] / eta**2:.5g} eta^2" if coil else "beyond the diagram"
-    low, high = map(edges.chirality_of, PAPER_COILS)
+    low, high = map(edges.chirality_of, edges.PAPER_COILS)
     return (
         f"Fig. 10. Unloaded ribbon of thickness ratio eta = {eta:g} with the edge growth xi (2 X2/a)^2, "
         "full section law, n = m = 0; solid: stable, dashed: unstable; both mirror images. (a), (b) "

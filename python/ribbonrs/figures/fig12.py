@@ -183,6 +183,7 @@ def _tables(
 
 def _caption() -> str:
     rise = float(edges.coiling(np.array(1.0))) - edges.BENDING
+    low, high = map(edges.chirality_of, edges.PAPER_COILS)
     return (
         "Fig. 12. Where the shapes of an unloaded ribbon change whose edges grow, g33 = xi (2 X2/a)^2, by "
         "the full section law at n = m = 0. (a) Over the thickness, without chirality and with the "
@@ -193,9 +194,9 @@ def _caption() -> str:
         "bend, which the paper does not have, before they would twist (unstable). The paper's first "
         "bifurcations (+, 5 to 5.2 eta^2) are those of twist; its second ones (x, 5.2 to 5.4 eta^2; it "
         "gives two numbers for each, and misprints of a factor of ten are set right) do not follow from "
-        "its equations. They are where twisted ribbons turn helical if omega is about 0.2; the paper does "
-        "not state a chirality: one possible explanation, not a reproduction. (b) The same for every "
-        "thickness: phase of the lowest stable state over chirality and growth, with the computed "
-        "boundary (solid) on its closed form (dotted); the dots of (a) fall on one another. Without "
-        "chirality, at omega = 0, ribbons are flat and then bent."
+        f"its equations. They are where twisted ribbons turn helical if omega is {low:.2f} to {high:.2f}; "
+        "the paper does not state a chirality: one possible explanation, not a reproduction. (b) The same "
+        "for every thickness: phase of the lowest stable state over chirality and growth, with the "
+        "computed boundary (solid) on its closed form (dotted); the dots of (a) fall on one another. "
+        "Without chirality, at omega = 0, ribbons are flat and then bent."
     )

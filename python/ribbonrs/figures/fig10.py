@@ -130,7 +130,7 @@ def _draw_branches(axes: Axes, diagram: Diagram, quantity: str, eta: float) -> N
                 height = line.curve.at(point.place, point.parameter)
                 axes.plot(point.parameter, height, MARKS[point.kind], color=INK, markersize=3.8, zorder=3.0)
     axes.set(xlim=diagram.span, xlabel=r"edge growth $\xi$")
-    axes.margins(y=0.2)
+    axes.margins(y=0.3)
     for point in diagram.special_points:
         if point.kind in MARKS:
             axes.axvline(point.parameter, color="0.8", linewidth=0.6, zorder=0.5)
@@ -145,7 +145,7 @@ def _draw_along(axes: Axes, state: State) -> None:
     for (name, style), values in zip(CURVATURES.items(), state.strains[:, 1:].T, strict=True):
         axes.plot(state.S, values, label=name, **style)
     axes.set(xlim=(0.0, state.S[-1]), xlabel="$S = X_3/a$", ylabel="curvatures $K_i$")
-    axes.margins(y=0.2)
+    axes.margins(y=0.3)
     axes.legend(ncols=3, loc="center right")
 
 

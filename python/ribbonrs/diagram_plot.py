@@ -24,7 +24,7 @@ from .smooth import Curve, smooth
 from .stability import neutral, stability
 from .symmetry import image, symmetries
 
-__all__ = ["plot"]
+__all__ = ["STYLES", "WIDTHS", "Line", "branch_lines", "plot", "runs"]
 
 # Okabe & Ito (2008): told apart by colour-blind eyes.
 COLOURS = ("#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
@@ -89,7 +89,7 @@ def plot(diagram: Diagram, quantity: str = "K3", path: str | PathLike[str] | Non
         An unknown quantity, a suffix that matplotlib does not know, or a directory that does not exist.
     """
     quantity = check_quantity("quantity", quantity)
-    lines = list(_lines(diagram, quantity))
+    lines = list(branch_lines(diagram, quantity))
     shown = list(_shown(diagram))
     figure = Figure(dpi=DPI, facecolor="white")
     FigureCanvasAgg(figure)
@@ -133,8 +133,8 @@ def plot(diagram: Diagram, quantity: str = "K3", path: str | PathLike[str] | Non
     return figure
 
 
-def _lines(diagram: Diagram, quantity: str) -> Iterator[Line]:
-    """Every branch and its images that differ in the quantity, mirror images first: they lie below."""
+def branch_lines(diagram: Diagram, quantity: str) -> Iterator[Line]:
+    """Yield every branch and its images that differ in the quantity, mirror images first: they lie below."""
     parameter = parameter_of(diagram.scene, diagram.parameter)
     kept = [{tuple(s.tolist()) for s in symmetries(parameter.scene(value))} for value in diagram.span]
     factors = {image(np.array(signs), quantity) for signs in sorted(kept[0] & kept[1])}
@@ -164,8 +164,8 @@ def _own(lines: list[Line], branch: Branch) -> Line:
     return next(line for line in lines if line.branch is branch and line.alpha == 1.0)
 
 
-def _runs(line: Line) -> Iterator[tuple[str, Array]]:
-    """Parts of a line of one stability each, as points (m, 2)."""
+def runs(line: Line) -> Iterator[tuple[str, Array]]:
+    """Yield the parts of a line of one stability each, as points (m, 2)."""
     told = stability(line.branch, line.neutral)
     first = 0
     for i in range(1, len(told) + 1):
@@ -175,7 +175,7 @@ def _runs(line: Line) -> Iterator[tuple[str, Array]]:
 
 
 def _draw(axes: Axes, line: Line) -> None:
-    for told, points in _runs(line):
+    for told, points in runs(line):
         axes.plot(
             *points.T,
             linestyle=STYLES[told],
@@ -214,7 +214,7 @@ def _mark(axes: Axes, point: SpecialPoint, lines: list[Line]) -> None:
 
 def _styles_of(lines: list[Line]) -> Iterator[Line2D]:
     """What the legend says of lines."""
-    present = {told for line in lines for told, _ in _runs(line)}
+    present = {told for line in lines for told, _ in runs(line)}
     for told, style in STYLES.items():
         if told in present:
             yield Line2D([], [], color=INK, linestyle=style, linewidth=WIDTHS[told], label=told)

@@ -21,7 +21,7 @@ from .phasediagram import NONE_STABLE, PHASES, Boundary, PhaseDiagram
 from .plot import write
 from .quantity import parameter_label
 
-__all__ = ["plot"]
+__all__ = ["plot", "region"]
 
 # Tints of Okabe & Ito (2008), of different lightness too: told apart by colour-blind eyes and in grey.
 COLOURS = {
@@ -138,7 +138,19 @@ def _inside(diagram: PhaseDiagram, points: Array) -> NDArray[np.bool_]:
 
 
 def _fill(axes: Axes, diagram: PhaseDiagram, phase: str) -> None:
-    """One colour within all lines that have the phase on one side."""
+    """One colour within the region of a phase."""
+    path = region(diagram, phase)
+    if path is None:
+        return
+    kind, _, how = phase.partition(", ")
+    colour = COLOURS.get(kind, OTHER)
+    hatch = HATCHES.get(how or kind)
+    edge = "0.45" if hatch else colour
+    axes.add_patch(PathPatch(path, facecolor=colour, edgecolor=edge, linewidth=0.3, hatch=hatch, zorder=0.5))
+
+
+def region(diagram: PhaseDiagram, phase: str) -> Path | None:
+    """Return what is within all lines that have the phase on one side; None where nothing is."""
     pieces = []
     for line in (*diagram.boundaries, *diagram.rim):
         if line.phases[0] != line.phases[1] and phase in line.phases:
@@ -146,13 +158,8 @@ def _fill(axes: Axes, diagram: PhaseDiagram, phase: str) -> None:
             pieces.append(line.points if line.phases[0] == phase else line.points[::-1])
     loops = list(_loops(pieces))
     if not loops:
-        return
-    path = Path.make_compound_path(*(Path(loop, closed=True) for loop in loops))
-    kind, _, how = phase.partition(", ")
-    colour = COLOURS.get(kind, OTHER)
-    hatch = HATCHES.get(how or kind)
-    edge = "0.45" if hatch else colour
-    axes.add_patch(PathPatch(path, facecolor=colour, edgecolor=edge, linewidth=0.3, hatch=hatch, zorder=0.5))
+        return None
+    return Path.make_compound_path(*(Path(loop, closed=True) for loop in loops))
 
 
 def _loops(pieces: list[Array]) -> Iterator[Array]:

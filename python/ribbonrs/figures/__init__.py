@@ -16,6 +16,10 @@ from .fig5 import fig5
 from .fig6 import fig6
 from .fig7_8 import fig7, fig8
 from .fig9 import fig9
+from .fig10 import fig10
+from .fig11 import fig11
+from .fig12 import fig12
+from .phase_plane import phase_plane
 
 __all__ = [
     "FIGURES",
@@ -27,6 +31,10 @@ __all__ = [
     "fig7",
     "fig8",
     "fig9",
+    "fig10",
+    "fig11",
+    "fig12",
+    "phase_plane",
 ]
 
 FIGURES: dict[str, Callable[..., Drawing]] = {
@@ -37,5 +45,9 @@ FIGURES: dict[str, Callable[..., Drawing]] = {
     "fig7": fig7,
     "fig8": fig8,
     "fig9": fig9,
+    "fig10": fig10,
+    "fig11": fig11,
+    "fig12": fig12,
+    "phase_plane": phase_plane,
 }
 """Every figure by its name, in the order of the paper."""

@@ -15,6 +15,6 @@ contains
     if (first) open (77, file='points.txt', status='replace')
     first = .false.
     last = nint(getp('NTST', 0, u))*nint(getp('NCOL', 0, u))
-    write (77, '(*(ES25.16))') par(1:npar), u(:, last/2), u(:, last)
+    write (77, '(*(ES26.16E3))') par(1:npar), u(:, last/2), u(:, last)
   end subroutine
 end module

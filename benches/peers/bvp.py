@@ -1,0 +1,144 @@
+"""scipy.integrate.solve_bvp on the scenes, with derivatives and continuation in a loop.
+
+    python benches/peers/bvp.py SCENE TOLERANCE      prints seconds in the solver, then the outputs
+
+At a bifurcation solve_bvp has no answer: the load of three bent states of growing amplitude is extrapolated to none.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+from rod import field
+from scenes import grown, reference, strip
+from scipy.integrate import solve_bvp
+
+Array = np.ndarray[Any, Any]
+
+ROUGH = 1e-3
+"""Tolerance on the way."""
+
+MESH = np.linspace(0.0, 1.0, 9)
+
+
+class Problem:
+    """A boundary-value problem, its latest solution, and how it is solved for again with more conditions."""
+
+    def __init__(self, equations: Callable[..., Any], conditions: Callable[..., Any], y: Array, p: Array) -> None:
+        self.equations, self.conditions = equations, conditions
+        self.x, self.y, self.p = MESH, y, p
+
+    def solve(self, pin: tuple[int, float], tol: float) -> Any:
+        """Solve with the parameter `pin[0]`, or the end state -1 - `pin[0]`, given."""
+        place, value = pin
+
+        def conditions(ya: Array, yb: Array, p: Array) -> Array:
+            pinned = p[place] if place >= 0 else yb[-1 - place]
+            return np.append(self.conditions(ya, yb, p)[0], pinned - value)
+
+        def conditions_jac(ya: Array, yb: Array, p: Array) -> tuple[Array, Array, Array]:
+            by_a, by_b, by_p = self.conditions(ya, yb, p)[1:]
+            row = np.zeros(ya.size + p.size)
+            row[ya.size + place if place >= 0 else -1 - place] = 1.0
+            rows = np.zeros(ya.size), row[: ya.size], row[ya.size :]
+            return tuple(np.vstack([a, b]) for a, b in zip((by_a, by_b, by_p), rows, strict=True))  # type: ignore[return-value]
+
+        solution = solve_bvp(
+            lambda _, y, p: self.equations(y, p)[0],
+            conditions,
+            self.x,
+            self.y,
+            p=self.p,
+            fun_jac=lambda _, y, p: self.equations(y, p)[1:],
+            bc_jac=conditions_jac,
+            tol=tol,
+            max_nodes=20000,
+        )
+        if not solution.success:
+            raise ArithmeticError(solution.message)
+        self.x, self.y, self.p = solution.x, solution.y, solution.p
+        return solution
+
+    def bifurcation(self, place: int, amplitude: float, tol: float) -> float:
+        """Return the first parameter where the pinned value vanishes, on which it depends by its square."""
+        squares, loads = [], []
+        for factor in (1.0, 2.0, 4.0):
+            self.solve((place, factor * amplitude), tol)
+            squares.append((factor * amplitude) ** 2)
+            loads.append(float(self.p[0]))
+        return float(np.polyval(np.polyfit(squares, loads, 2), 0.0))
+
+    def follow(self, place: int, values: Any) -> None:
+        """Go through values of what is pinned, roughly."""
+        for value in values:
+            self.solve((place, value), ROUGH)
+
+
+def s3(tol: float) -> Array:
+    """Elastica: states theta, m, x, z, parameter p."""
+
+    def equations(y: Array, p: Array) -> tuple[Array, Array, Array]:
+        s, c, zero = np.sin(y[0]), np.cos(y[0]), 0 * y[0]
+        by_y = np.zeros((4, 4, y.shape[1]))
+        by_y[0, 1], by_y[1, 0], by_y[2, 0], by_y[3, 0] = 1.0, -p[0] * c, c, -s
+        return np.stack([y[1], -p[0] * s, s, c]), by_y, np.stack([zero, -s, zero, zero])[:, None]
+
+    def conditions(ya: Array, yb: Array, p: Array) -> tuple[Array, ...]:
+        by_a, by_b = np.zeros((4, 4)), np.zeros((4, 4))
+        by_a[0, 0] = by_a[1, 2] = by_a[2, 3] = by_b[3, 1] = 1.0
+        return np.array([ya[0], ya[2], ya[3], yb[1]]), by_a, by_b, np.zeros((4, 1))
+
+    mode = np.sin(np.pi * MESH / 2)
+    y = np.stack([0.05 * mode, 0.05 * np.gradient(mode, MESH), 0 * mode, MESH])
+    problem = Problem(equations, conditions, y, np.array([2.5]))
+    critical = problem.bifurcation(-1, 0.05, tol)
+    problem.follow(0, (3.0, 4.5, 6.5, 8.5))
+    end = problem.solve((0, 10.0), tol).y[:, -1]
+    return np.array([critical, end[2], end[3]])
+
+
+def clamp(ya: Array) -> Array:
+    """Return what (r, q) at a clamp misses."""
+    return ya - np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
+
+
+def s2(tol: float) -> Array:
+    """Strip: states (r, q), parameters p, C1, C3."""
+
+    def equations(y: Array, p: Array) -> tuple[Array, Array, Array]:
+        f, by_y, by_w = field(y, np.array([0.0, -p[0], 0.0]), np.array([p[1], 0.0, p[2]]), strip)
+        return f, by_y, np.stack([-by_w[:, 1], by_w[:, 3], by_w[:, 5]], axis=1)
+
+    def conditions(ya: Array, yb: Array, p: Array) -> tuple[Array, ...]:
+        by_a, by_b, by_p = np.eye(9, 7), np.zeros((9, 7)), np.zeros((9, 3))
+        by_b[7, 2], by_p[7] = -p[0], [-yb[2], 1.0, 0.0]
+        by_b[8, 0], by_p[8] = p[0], [yb[0], 0.0, 1.0]
+        return np.append(clamp(ya), [p[1] - p[0] * yb[2], p[2] + p[0] * yb[0]]), by_a, by_b, by_p
+
+    y = np.zeros((7, MESH.size))
+    y[0], y[2], y[3] = 0.05 * MESH**2, MESH, 1.0
+    y[5], y[6] = 0.05 * MESH, 0.1 * MESH
+    problem = Problem(equations, conditions, y, np.array([4.07, 4.07, -0.2]))
+    critical = problem.bifurcation(-1, 0.05, tol)
+    target = 2 * float(reference("s2")[0])
+    problem.follow(0, np.linspace(1.1, 1.8, 5) * target / 2)
+    end = problem.solve((0, target), tol).y[:3, -1]
+    _, c1, c3 = problem.p
+    return np.array([critical, abs(end[0]), end[1], end[2], c1, abs(c3)])
+
+
+def main() -> None:
+    """Run one scene."""
+    scene, tol = globals()[sys.argv[1]], float(sys.argv[2])
+    before = time.perf_counter()
+    outputs = scene(tol)
+    print(time.perf_counter() - before, *outputs.tolist())
+
+
+if __name__ == "__main__":
+    main()

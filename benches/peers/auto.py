@@ -11,7 +11,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scenes import reference
 
+Array = np.ndarray[Any, Any]
 Constants = Mapping[str, Any]
 
 SOURCES = Path(__file__).parent / "auto"
@@ -29,9 +31,9 @@ COMMON = {"IPS": 4, "ILP": 0, "JAC": 1, "IID": 0, "MXBF": 0, "NPR": 0, "IADS": 1
 class Point:
     """What AUTO has at one point: parameters, and states at the middle and the end."""
 
-    par: np.ndarray[Any, Any]
-    middle: np.ndarray[Any, Any]
-    end: np.ndarray[Any, Any]
+    par: Array
+    middle: Array
+    end: Array
 
 
 @dataclass(frozen=True)
@@ -94,3 +96,71 @@ def _special(folder: Path, parameters: int) -> list[tuple[str, Point]]:
         par, states = np.split(every[place], [parameters])
         special.append((KINDS[int(row[2]) % 10 if int(row[2]) > 0 else int(row[2])], Point(par, *np.split(states, 2))))
     return special
+
+
+Level = tuple[int, int]
+"""Mesh intervals and collocation points in each: what the error depends on."""
+
+LEVELS: Mapping[str, Sequence[Level]] = {
+    "s1": ((3, 3), (4, 3), (4, 4), (5, 5)),
+    "s2": ((3, 3), (4, 4), (6, 4), (8, 5)),
+    "s3": ((3, 3), (4, 4), (6, 5), (8, 6)),
+    "s4": ((12, 4), (16, 4), (24, 4), (24, 6)),
+}
+"""Meshes are even and do not move, so that the middle of S4 is a node."""
+
+PARAMETERS = {"s1": 1, "s2": 3, "s3": 1, "s4": 7}
+
+
+def _runs(scene: str, level: Level) -> list[Constants]:
+    """Constants of the runs of a scene; steps are about the longest with which AUTO finds what it should."""
+    states = {"s1": 13, "s2": 7, "s3": 4, "s4": 7}[scene]
+    target = {"s1": 8.0, "s2": 2 * float(reference("s2")[0]), "s3": 10.0, "s4": 0.9}[scene]
+    common = {
+        "NDIM": states,
+        "NBC": states + PARAMETERS[scene] - 1,
+        "ICP": list(range(1, PARAMETERS[scene] + 1)),
+        "NTST": level[0],
+        "NCOL": level[1],
+        "IAD": 0,
+        "ITNW": 7,
+        "NWTN": 3,
+        "ITMX": 20,
+        "DSMIN": 1e-5,
+        "UZSTOP": {1: target},
+    }
+
+    def run_of(step: float, longest: float, epsilon: float, stop: str = "", switch: bool = False) -> Constants:
+        own = {"DS": step, "DSMAX": longest, "EPSL": epsilon, "EPSU": epsilon, "EPSS": epsilon}
+        own |= {"ISP": 2, "STOP": f"['{stop}']"} if stop else {"ISP": 0}
+        own |= {"ISW": -1, "IRS": "'BP1'"} if switch else {"ISW": 1}
+        return {**common, **own}
+
+    if scene == "s1":
+        return [run_of(0.4, 0.4, 1e-9, "BP2"), run_of(0.4, 0.4, 1e-9, switch=True)]
+    if scene == "s2":
+        return [run_of(1.0, 3.0, 1e-9, "BP1"), run_of(1.0, 3.0, 1e-9, switch=True)]
+    if scene == "s3":
+        return [run_of(1.0, 3.0, 1e-9, "BP1"), run_of(1.0, 5.0, 1e-9, switch=True)]
+    return [
+        run_of(-2.0, 2.0, 1e-7, "BP1"),
+        run_of(0.2, 0.2, 1e-7, "BP1", switch=True),
+        run_of(0.2, 0.5, 1e-9, switch=True),
+    ]
+
+
+def solve(scene: str, program: Path, level: Level) -> tuple[Array, Found]:
+    """Return the outputs of a scene, and how they were found."""
+    found = run(program, _runs(scene, level), PARAMETERS[scene])
+    bifurcations = [point.par[0] for point in found.points["BP"]]
+    last = found.points["UZ"][-1]
+    end, middle, par = last.end, last.middle, last.par
+    if scene == "s1":
+        outputs = [*bifurcations[:2], abs(end[2]), abs(end[6]), end[8]]
+    elif scene == "s2":
+        outputs = [bifurcations[0], abs(end[0]), end[1], end[2], par[1], abs(par[2])]
+    elif scene == "s3":
+        outputs = [bifurcations[0], abs(end[2]), end[3]]
+    else:
+        outputs = [bifurcations[1], *par[1:7], *middle[:3]]
+    return np.array(outputs), found

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scenes import reference
+from scenes import canonical, reference
 
 Array = np.ndarray[Any, Any]
 Constants = Mapping[str, Any]
@@ -162,5 +162,5 @@ def solve(scene: str, program: Path, level: Level) -> tuple[Array, Found]:
     elif scene == "s3":
         outputs = [bifurcations[0], abs(end[2]), end[3]]
     else:
-        outputs = [bifurcations[1], *par[1:7], *middle[:3]]
+        outputs = [bifurcations[1], *canonical(par[1:4], par[4:7], middle[:3])]
     return np.array(outputs), found

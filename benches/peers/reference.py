@@ -14,7 +14,7 @@ from typing import Any
 import mpmath as mp
 import numpy as np
 from rod import field
-from scenes import grown, strip
+from scenes import canonical, grown, strip
 from scipy.integrate import solve_ivp
 
 Array = np.ndarray[Any, Any]
@@ -126,8 +126,6 @@ def s2() -> Array:
 
 def s4() -> Array:
     """Distance of the clamps at the bifurcation of the symmetric state, and of the other at 0.9 N, C, middle.
-
-    Of four mirror images that with positive N1, negative N2.
     """
 
     def misses(z: float, w: Array) -> Array:
@@ -137,7 +135,7 @@ def s4() -> Array:
     critical = singular(misses, np.array([0.9, 0.0, -10.2, 0.49, 0.45, 0.29]), 0.9629, 0.9633)
     w, _ = solved(partial(misses, 0.9), np.array([0.00946, -0.7812, -5.9582, 0.76473, -0.37478, 0.53466]))
     middle = shot(CLAMP, w[:3, None], w[3:, None], partial(grown, np.zeros((2, 1))), (0.5,))[:3, 0, 0].real
-    return np.array([critical, *w, *middle])
+    return np.array([critical, *canonical(w[:3], w[3:], middle)])
 
 
 def main() -> None:

@@ -11,7 +11,7 @@ import time
 from typing import Any
 
 import numpy as np
-from scenes import ETA, LENGTH, S2_UNIT, S4_FORCE, S4_MOMENT, reference
+from scenes import ETA, LENGTH, S2_UNIT, S4_FORCE, S4_MOMENT, canonical, reference
 
 import ribbonrs as rb
 
@@ -70,9 +70,9 @@ def s4(tol: float) -> Array:
     diagram = rb.trace(scene, "end.position[2]", distances, start=start, tol=tol, depth=1)
     state = at_end(diagram, -1)
     reaction = state.reactions.start
-    force, moment = -reaction.force / S4_FORCE, -reaction.moment / S4_MOMENT
     middle = state.position[state.S.size // 2] / LENGTH
-    return np.array([bifurcation(diagram) / LENGTH, *force, *moment, *middle])
+    outputs = canonical(-reaction.force / S4_FORCE, -reaction.moment / S4_MOMENT, middle)
+    return np.append(bifurcation(diagram) / LENGTH, outputs)
 
 
 def main() -> None:

@@ -56,6 +56,17 @@ S4_LOAD = np.array([ETA / LENGTH, ETA, 1.0, 1.0])
 S4_STRAIN = np.array([ETA**2, ETA**2 * LENGTH, ETA * LENGTH, ETA * LENGTH])
 
 
+def canonical(n: Array, c: Array, middle: Array) -> Array:
+    """Return N, C and the middle of a state of S4 in one way for all its mirror images.
+
+    Of the two ends that where the first component of the moment is larger, and no signs.
+    """
+    other = c + np.array([0.9 * n[1], -0.9 * n[0], 0.0])  # the moment at the far end
+    if abs(other[0]) > abs(c[0]):
+        c, middle = other, np.array([0.0, 0.0, 0.9]) - middle
+    return np.abs(np.concatenate([n, c, middle]))
+
+
 def strip(wrench: Array) -> tuple[Array, Array]:
     """Linear section of S2: strains (4, n) and compliances (4, 4, n)."""
     compliance = np.broadcast_to(np.diag(S2_SOFT)[:, :, None], (4, 4, wrench.shape[1]))

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 from rod import field
-from scenes import grown, reference, strip
+from scenes import canonical, grown, reference, strip
 from scipy.integrate import solve_bvp
 
 Array = np.ndarray[Any, Any]
@@ -96,7 +96,7 @@ def s3(tol: float) -> Array:
     mode = np.sin(np.pi * MESH / 2)
     y = np.stack([0.05 * mode, 0.05 * np.gradient(mode, MESH), 0 * mode, MESH])
     problem = Problem(equations, conditions, y, np.array([2.5]))
-    critical = problem.bifurcation(-1, 0.05, tol)
+    critical = problem.bifurcation(-1, 0.02, tol)
     problem.follow(0, (3.0, 4.5, 6.5, 8.5))
     end = problem.solve((0, 10.0), tol).y[:, -1]
     return np.array([critical, end[2], end[3]])
@@ -124,12 +124,45 @@ def s2(tol: float) -> Array:
     y[0], y[2], y[3] = 0.05 * MESH**2, MESH, 1.0
     y[5], y[6] = 0.05 * MESH, 0.1 * MESH
     problem = Problem(equations, conditions, y, np.array([4.07, 4.07, -0.2]))
-    critical = problem.bifurcation(-1, 0.05, tol)
+    critical = problem.bifurcation(-1, 0.02, tol)
     target = 2 * float(reference("s2")[0])
     problem.follow(0, np.linspace(1.1, 1.8, 5) * target / 2)
     end = problem.solve((0, target), tol).y[:3, -1]
     _, c1, c3 = problem.p
     return np.array([critical, abs(end[0]), end[1], end[2], c1, abs(c3)])
+
+
+def s4(tol: float) -> Array:
+    """Strip between clamps: states (r, q), parameters z, N, C."""
+
+    def law(wrench: Array) -> tuple[Array, Array]:
+        return grown(np.zeros((2, wrench.shape[1])), wrench)
+
+    def equations(y: Array, p: Array) -> tuple[Array, Array, Array]:
+        f, by_y, by_w = field(y, p[1:4], p[4:7], law)
+        return f, by_y, np.concatenate([np.zeros((7, 1, y.shape[1])), by_w], axis=1)
+
+    def conditions(ya: Array, yb: Array, p: Array) -> tuple[Array, ...]:
+        by_a, by_b, by_p = np.eye(13, 7), np.eye(13, 7, -7), np.zeros((13, 7))
+        by_p[9, 0] = -1.0
+        missed = yb[:6] - np.array([0.0, 0.0, p[0], 0.0, 0.0, 0.0])
+        return np.append(clamp(ya), missed), by_a, by_b, by_p
+
+    # The first buckle of the straight and twisted strip, grown until it is near the bifurcation.
+    angle = np.pi * MESH / 2
+    y = np.zeros((7, MESH.size))
+    y[0], y[2], y[3], y[6] = -0.03 * (1 - np.cos(2 * np.pi * MESH)), MESH, np.cos(angle), np.sin(angle)
+    problem = Problem(equations, conditions, y, np.array([1.0, 0.3, 0.0, -9.0, 0.15, 0.15, 0.28]))
+    problem.follow(1, (0.3, 0.5, 0.75))
+    # The other branch breaks the symmetry between the ends: N2 is not zero, and the moments differ.
+    problem.p[[2, 4]] += [-0.1, 0.048]
+    problem.follow(2, (-0.1, -0.02))
+    critical = problem.bifurcation(2, -0.02, tol)
+    problem.follow(2, (-0.3, -0.5, -0.75))
+    problem.follow(0, (0.9,))
+    solution = problem.solve((0, 0.9), tol)
+    middle = solution.sol(0.5)[:3]
+    return np.append(critical, canonical(problem.p[1:4], problem.p[4:7], middle))
 
 
 def main() -> None:

@@ -94,7 +94,9 @@ def _special(folder: Path, parameters: int) -> list[tuple[str, Point]]:
         near = np.abs(every[:, 0] - value)
         place = int(np.flatnonzero(near <= near.min() + 1e-9 * abs(value))[-1])
         par, states = np.split(every[place], [parameters])
-        special.append((KINDS[int(row[2]) % 10 if int(row[2]) > 0 else int(row[2])], Point(par, *np.split(states, 2))))
+        special.append(
+            (KINDS[int(row[2]) % 10 if int(row[2]) > 0 else int(row[2])], Point(par, *np.split(states, 2)))
+        )
     return special
 
 
@@ -105,7 +107,7 @@ LEVELS: Mapping[str, Sequence[Level]] = {
     "s1": ((3, 3), (4, 3), (4, 4), (5, 5)),
     "s2": ((3, 3), (4, 4), (6, 4), (8, 5)),
     "s3": ((3, 3), (4, 4), (6, 5), (8, 6)),
-    "s4": ((12, 4), (16, 4), (24, 4), (24, 6)),
+    "s4": ((12, 4), (16, 4), (24, 4), (32, 4), (24, 6)),
 }
 """Meshes are even and do not move, so that the middle of S4 is a node."""
 
@@ -130,7 +132,9 @@ def _runs(scene: str, level: Level) -> list[Constants]:
         "UZSTOP": {1: target},
     }
 
-    def run_of(step: float, longest: float, epsilon: float, stop: str = "", switch: bool = False) -> Constants:
+    def run_of(
+        step: float, longest: float, epsilon: float, stop: str = "", switch: bool = False
+    ) -> Constants:
         own = {"DS": step, "DSMAX": longest, "EPSL": epsilon, "EPSU": epsilon, "EPSS": epsilon}
         own |= {"ISP": 2, "STOP": f"['{stop}']"} if stop else {"ISP": 0}
         own |= {"ISW": -1, "IRS": "'BP1'"} if switch else {"ISW": 1}

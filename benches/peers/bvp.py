@@ -10,12 +10,12 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable
-from functools import partial
 from typing import Any
 
 import numpy as np
-from rod import field
-from scenes import canonical, grown, reference, strip
+from edge_law import section
+from rod import B, T, field
+from scenes import S4_LOAD, S4_STRAIN, canonical, grown, reference, strip
 from scipy.integrate import solve_bvp
 
 Array = np.ndarray[Any, Any]
@@ -29,7 +29,9 @@ MESH = np.linspace(0.0, 1.0, 9)
 class Problem:
     """A boundary-value problem, its latest solution, and how it is solved for again with more conditions."""
 
-    def __init__(self, equations: Callable[..., Any], conditions: Callable[..., Any], y: Array, p: Array) -> None:
+    def __init__(
+        self, equations: Callable[..., Any], conditions: Callable[..., Any], y: Array, p: Array
+    ) -> None:
         self.equations, self.conditions = equations, conditions
         self.x, self.y, self.p = MESH, y, p
 
@@ -130,6 +132,97 @@ def s2(tol: float) -> Array:
     end = problem.solve((0, target), tol).y[:3, -1]
     _, c1, c3 = problem.p
     return np.array([critical, abs(end[0]), end[1], end[2], c1, abs(c3)])
+
+
+S1_STRAIN = S4_STRAIN
+"""Strains in units of 1 and 1/L from those of `edge_law`; forces and moments in eta^3/L and eta^3 from it."""
+S1_LOAD = 1 / S4_LOAD
+
+
+def growing(y: Array, p: Array) -> tuple[Array, Array, Array]:
+    """Right side of S1 and its derivatives, as in `auto/s1.f90`: states e, k1, k2, k3, n1, n2, r, q, parameter x."""
+    points = y.shape[1]
+    w, h, hx = section(y[:4], p[0])
+    (n3, *m), strains = S1_LOAD[:, None] * w, S1_STRAIN[:, None] * y[:4]
+    k, stretch, zero = strains[1:], 1 + strains[0], np.zeros(points)
+    n1, n2 = y[4:6]
+    h = S1_LOAD[:, None, None] * h
+    hx = S1_LOAD[:, None] * hx
+    factor = np.linalg.inv(np.moveaxis(h, -1, 0))
+    g = np.stack(
+        [
+            k[1] * n1 - k[0] * n2,
+            k[2] * m[1] - k[1] * m[2] + stretch * n2,
+            k[0] * m[2] - k[2] * m[0] - stretch * n1,
+            k[1] * m[0] - k[0] * m[1],
+        ]
+    )
+    by_strain = np.array(
+        [
+            [zero, -n2, n1, zero],
+            [n2, zero, -m[2], m[1]],
+            [-n1, m[2], zero, -m[0]],
+            [zero, -m[1], m[0], zero],
+        ]
+    )
+    by_wrench = np.zeros((4, 4, points))
+    by_wrench[1, 2:], by_wrench[2, 1], by_wrench[2, 3] = (k[2], -k[1]), -k[2], k[0]
+    by_wrench[3, 1:3] = k[1], -k[0]
+    by = np.concatenate(
+        [
+            by_strain * S1_STRAIN[:, None] + np.einsum("ijp,jkp->ikp", by_wrench, h),
+            np.array([[k[1], -k[0]], [zero, stretch], [-stretch, zero], [zero, zero]]),
+            np.einsum("ijp,jp->ip", by_wrench, hx)[:, None],
+        ],
+        axis=1,
+    )
+    f = np.zeros((13, points))
+    by_y, by_p = np.zeros((13, 13, points)), np.zeros((13, 1, points))
+    f[:4] = np.einsum("pij,jp->ip", factor, g)
+    # The derivatives of the stiffness are left out: they multiply the strains' derivatives, which vanish.
+    solved = np.einsum("pij,jkp->ikp", factor, by)
+    by_y[:4, :6], by_p[:4, 0] = solved[:, :6], solved[:, 6]
+    f[4], f[5] = k[2] * n2 - k[1] * n3, k[0] * n3 - k[2] * n1
+    by_y[4, :4], by_y[5, :4] = -k[1] * h[0], k[0] * h[0]
+    by_p[4:6, 0] = -k[1] * hx[0], k[0] * hx[0]
+    by_y[4, 2] -= n3 * S1_STRAIN[2]
+    by_y[4, 3] += n2 * S1_STRAIN[3]
+    by_y[5, 1] += n3 * S1_STRAIN[1]
+    by_y[5, 3] -= n1 * S1_STRAIN[3]
+    by_y[4, 5], by_y[5, 4] = k[2], -k[2]
+    q = y[9:]
+    by_q = 2 * np.einsum("jab,bp->jap", B[2], q)
+    d3 = np.einsum("jap,ap->jp", by_q, q) / 2
+    turn = np.einsum("iab,bp->aip", T, q)
+    f[6:9], f[9:] = stretch * d3, np.einsum("aip,ip->ap", turn, k)
+    by_y[6:9, 0], by_y[6:9, 9:] = S1_STRAIN[0] * d3, stretch * by_q
+    by_y[9:, 1:4], by_y[9:, 9:] = turn * S1_STRAIN[1:, None], np.einsum("iab,ip->abp", T, k)
+    return f, by_y, by_p
+
+
+def s1(tol: float) -> Array:
+    """Growing edges, clamped and free."""
+
+    def conditions(ya: Array, yb: Array, p: Array) -> tuple[Array, ...]:
+        w, h, hx = section(yb[:4, None], p[0])
+        by_a, by_b, by_p = np.eye(13, k=6), np.zeros((13, 13)), np.zeros((13, 1))
+        by_a[7:] = 0.0
+        by_b[7, 4] = by_b[8, 5] = 1.0
+        by_b[9:, :4], by_p[9:] = h[:, :, 0], hx
+        return np.concatenate([clamp(ya[6:]), yb[4:6], w[:, 0]]), by_a, by_b, by_p
+
+    def beside(x: float, state: int) -> Problem:
+        """Start beside the flat state at a threshold."""
+        y = np.zeros((13, MESH.size))
+        y[0], y[state], y[8], y[9] = x / 3, 0.1, MESH, 1.0
+        return Problem(growing, conditions, y, np.array([x]))
+
+    twist = beside(5.0, 3).bifurcation(-4, 0.1, tol)
+    problem = beside(4.55, 2)
+    bend = problem.bifurcation(-3, 0.1, tol)
+    problem.follow(0, (5.0, 6.0, 7.0))
+    end = problem.solve((0, 8.0), tol).y[:, -1]
+    return np.array([bend, twist, abs(end[2]), abs(end[6]), end[8]])
 
 
 def s4(tol: float) -> Array:

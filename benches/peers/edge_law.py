@@ -47,6 +47,22 @@ def relaxed(k2: Array, k3: Array, x: float) -> tuple[Array, ...]:
     )
 
 
+def section(strain: Array, x: float) -> tuple[Array, Array, Array]:
+    """Return (n3, m1, m2, m3) (4, n) of strains (e, k1, k2, k3), derivatives (4, 4, n), and those with x (4, n)."""
+    e, k1, k2, k3 = strain
+    f2, f3, f22, f23, f33 = relaxed(k2, k3, x)
+    s, s1, _ = sigma(2.25 * k2**2)
+    a, d = k2**2 + 2 * k3**2 - 16 * x, 4.5 * k2 * s1
+    g = e + k3**2 / 24 - x / 3
+    h = np.zeros((4, *strain.shape))
+    h[0, 0], h[1, 1], h[2, 2] = 1.0, 1 / 12, f22
+    h[0, 3] = h[3, 0] = k3 / 12
+    h[2, 3] = h[3, 2] = f23
+    h[3, 3] = 1 / 9 + g / 12 + k3**2 / 144 + f33
+    hx = np.stack([0 * e - 1 / 3, 0 * e, -(d * a + 2 * s * k2), -4 * s * k3 - k3 / 36])
+    return np.stack([g, k1 / 12, f2, k3 * (1 / 9 + g / 12) + f3]), h, hx
+
+
 def inverse(wrench: Array, x: float, k: Array) -> tuple[Array, Array]:
     """Return strains (4, n) and compliances (4, 4, n) of (n3, m1, m2, m3), from a guess (2, n) of (k2, k3)."""
     k2, k3 = k

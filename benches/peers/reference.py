@@ -125,8 +125,7 @@ def s2() -> Array:
 
 
 def s4() -> Array:
-    """Distance of the clamps at the bifurcation of the symmetric state, and of the other at 0.9 N, C, middle.
-    """
+    """Distance of the clamps at the bifurcation of the symmetric state, and of the other at 0.9 N, C, middle."""
 
     def misses(z: float, w: Array) -> Array:
         end = shot(CLAMP, w[:3], w[3:], partial(grown, np.zeros((2, w.shape[1]))))[:, :, 0]

@@ -1,6 +1,6 @@
 """ribbonrs on the scenes, as a user would write them.
 
-    python benches/peers/ribbon.py SCENE TOLERANCE      prints seconds in the solver, then the outputs
+python benches/peers/ribbon.py SCENE TOLERANCE      prints seconds in the solver, then the outputs
 """
 
 from __future__ import annotations
@@ -11,9 +11,8 @@ import time
 from typing import Any
 
 import numpy as np
-from scenes import ETA, LENGTH, S2_UNIT, S4_FORCE, S4_MOMENT, canonical, reference
-
 import ribbonrs as rb
+from scenes import ETA, LENGTH, S2_UNIT, S4_FORCE, S4_MOMENT, canonical, reference
 
 Array = np.ndarray[Any, Any]
 

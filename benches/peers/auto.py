@@ -89,14 +89,13 @@ def _special(folder: Path, parameters: int) -> list[tuple[str, Point]]:
     every = np.loadtxt(folder / "points.txt", ndmin=2)
     special = []
     for row in labelled:
-        # fort.7 tells the kind, with eleven digits of the parameter; of points that agree in them the last is meant.
+        # fort.7 tells the kind, with eleven digits of the parameter; of points that agree the last is meant.
         value = float(row[4])
         near = np.abs(every[:, 0] - value)
         place = int(np.flatnonzero(near <= near.min() + 1e-9 * abs(value))[-1])
         par, states = np.split(every[place], [parameters])
-        special.append(
-            (KINDS[int(row[2]) % 10 if int(row[2]) > 0 else int(row[2])], Point(par, *np.split(states, 2)))
-        )
+        kind = int(row[2])
+        special.append((KINDS[kind % 10 if kind > 0 else kind], Point(par, *np.split(states, 2))))
     return special
 
 

@@ -2,7 +2,7 @@
 
     python benches/peers/bvp.py SCENE TOLERANCE      prints seconds in the solver, then the outputs
 
-At a bifurcation solve_bvp has no answer: the load of three bent states of growing amplitude is extrapolated to none.
+At a bifurcation solve_bvp has no answer: three states beside it are extrapolated to amplitude zero.
 """
 
 from __future__ import annotations
@@ -140,7 +140,7 @@ S1_LOAD = 1 / S4_LOAD
 
 
 def growing(y: Array, p: Array) -> tuple[Array, Array, Array]:
-    """Right side of S1 and its derivatives, as in `auto/s1.f90`: states e, k1, k2, k3, n1, n2, r, q, parameter x."""
+    """Right side and derivatives as in `auto/s1.f90`: states strains, n1, n2, r, q, parameter x."""
     points = y.shape[1]
     w, h, hx = section(y[:4], p[0])
     (n3, *m), strains = S1_LOAD[:, None] * w, S1_STRAIN[:, None] * y[:4]

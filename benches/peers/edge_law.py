@@ -1,4 +1,4 @@
-"""The relaxed section of a ribbon whose edges grow, in numpy: as `auto/edge_law.f90` says it, many sections at once.
+"""The relaxed section of a ribbon whose edges grow, in numpy: as `auto/edge_law.f90`, many sections at once.
 
 Functions are analytic, so complex steps give derivatives.
 """
@@ -48,7 +48,7 @@ def relaxed(k2: Array, k3: Array, x: float) -> tuple[Array, ...]:
 
 
 def section(strain: Array, x: float) -> tuple[Array, Array, Array]:
-    """Return (n3, m1, m2, m3) (4, n) of strains (e, k1, k2, k3), derivatives (4, 4, n), and those with x (4, n)."""
+    """Return (n3, m1, m2, m3) (4, n) of strains (e, k1, k2, k3), and derivatives with these and with x."""
     e, k1, k2, k3 = strain
     f2, f3, f22, f23, f33 = relaxed(k2, k3, x)
     s, s1, _ = sigma(2.25 * k2**2)
@@ -64,7 +64,7 @@ def section(strain: Array, x: float) -> tuple[Array, Array, Array]:
 
 
 def inverse(wrench: Array, x: float, k: Array) -> tuple[Array, Array]:
-    """Return strains (4, n) and compliances (4, 4, n) of (n3, m1, m2, m3), from a guess (2, n) of (k2, k3)."""
+    """Return strains (4, n) and compliances (4, 4, n) of (n3, m1, m2, m3), guessed (k2, k3) (2, n)."""
     k2, k3 = k
     twist = 1 / 9 + wrench[0] / 12
     for _ in range(40):

@@ -75,13 +75,13 @@ CLAMP = np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
 
 
 def solved(residual: Any, w: Array) -> tuple[Array, Array]:
-    """Return a zero of a function of (m, p) unknowns, and its Jacobian there, by Newton's method with complex steps."""
+    """Return a zero of a function of (m, p) unknowns, and its Jacobian there, by Newton's method."""
     small = False
     for _ in range(20):
         steps = np.concatenate([np.zeros((w.size, 1)), 1j * STEP * np.eye(w.size)], axis=1)
         values = residual(w[:, None] + steps)
         jacobian = values[:, 1:].imag / STEP
-        # At a bifurcation one direction is left alone, and beside it rounding keeps it from going lower than this.
+        # At a bifurcation one direction is left alone, and beside it rounding limits it.
         change = np.linalg.lstsq(jacobian, values[:, 0].real, rcond=1e-8)[0]
         w = w - change
         if small:
@@ -91,7 +91,7 @@ def solved(residual: Any, w: Array) -> tuple[Array, Array]:
 
 
 def singular(equations: Any, guess: Array, first: float, second: float) -> float:
-    """Return the parameter near two others at which the Jacobian at the solution of equations(parameter, w) is singular."""
+    """Return the parameter near two others at which the Jacobian of equations(parameter, w) is singular."""
 
     def determinant(parameter: float) -> float:
         guess[:], jacobian = solved(partial(equations, parameter), guess)
@@ -125,7 +125,7 @@ def s2() -> Array:
 
 
 def s4() -> Array:
-    """Distance of the clamps at the bifurcation of the symmetric state, and of the other at 0.9 N, C, middle."""
+    """Distance of the clamps at the bifurcation; N, C and middle of the state without symmetry at 0.9."""
 
     def misses(z: float, w: Array) -> Array:
         end = shot(CLAMP, w[:3], w[3:], partial(grown, np.zeros((2, w.shape[1]))))[:, :, 0]

@@ -1,4 +1,4 @@
-"""A rod with a constant force N and constant C = M + r x N, in numpy: as `auto/rod.f90` says it, many points at once."""
+"""A rod with constant N and C = M + r x N, in numpy: as `auto/rod.f90`, many points at once."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
 
 
 def field(u: Array, n: Array, c: Array, law: Law) -> tuple[Array, Array, Array]:
-    """Return u' (7, p) of states (r, q) (7, p), its derivatives with them (7, 7, p) and with (N, C) (7, 6, p).
+    """Return u' (7, p) of states (r, q) (7, p), and its derivatives with them (7, 7, p) and (N, C) (7, 6, p).
 
     N and C are (3,) or (3, p).
     """

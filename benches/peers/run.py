@@ -1,6 +1,6 @@
 """Run time against error of ribbonrs, AUTO-07p and scipy's solve_bvp: `make bench-peers`.
 
-    python benches/peers/run.py            measures, and writes docs/figures/peers.csv and a picture for each scene
+    python benches/peers/run.py            measures, writes docs/figures/peers.csv and draws a picture a scene
     python benches/peers/run.py --draw     only draws
 
 Every round runs each solver at each of its levels once, one after the other; medians of seven rounds.

@@ -9,6 +9,7 @@ Every round runs each solver at each of its levels once, one after the other; me
 from __future__ import annotations
 
 import csv
+import os
 import subprocess
 import sys
 import tempfile
@@ -40,10 +41,13 @@ Sample = tuple[float, float, float]
 """Error, and seconds in the solver and of the whole process."""
 
 
-def in_python(module: Any, scene: str, tol: float) -> Callable[[], Sample]:
-    """Return what measures a Python solver: here, warm, and as a script, cold."""
+def in_python(module: Any, scene: str, tol: float, cache: Path) -> Callable[[], Sample]:
+    """Return what measures a Python solver: here, warm, and as a script, with bytecode in `cache`."""
     function = getattr(module, scene)
     function(tol)
+    # As where packages are installed; some machines are told to write none.
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    environment["PYTHONPYCACHEPREFIX"] = str(cache)
 
     def measure() -> Sample:
         before = time.perf_counter()
@@ -51,7 +55,7 @@ def in_python(module: Any, scene: str, tol: float) -> Callable[[], Sample]:
         inside = time.perf_counter() - before
         before = time.perf_counter()
         command = [sys.executable, module.__file__, scene, repr(tol)]
-        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(command, env=environment, check=True, stdout=subprocess.DEVNULL)
         return error(scene, outputs), inside, time.perf_counter() - before
 
     return measure
@@ -72,8 +76,7 @@ def rows_of(scene: str, folder: Path) -> list[list[Any]]:
     program = auto.compiled(scene, folder)
     kinds: list[tuple[str, str, Callable[[], Sample]]] = []
     for name, module in (("ribbonrs", ribbon), ("solve_bvp", bvp)):
-        if hasattr(module, scene):
-            kinds += [(name, f"{tol:g}", in_python(module, scene, tol)) for tol in TOLERANCES[name]]
+        kinds += [(name, f"{tol:g}", in_python(module, scene, tol, folder)) for tol in TOLERANCES[name]]
     for level in auto.LEVELS[scene]:
         kinds.append(("AUTO-07p", f"{level[0]} x {level[1]}", in_fortran(scene, program, level)))
     samples: list[list[Sample]] = [[] for _ in kinds]
@@ -93,8 +96,6 @@ def draw(scene: str, rows: Sequence[dict[str, str]]) -> None:
     figure, axes = plt.subplots(figsize=(3.4, 2.9), layout="constrained")
     for name, (colour, marker) in LOOK.items():
         own = [row for row in rows if row["solver"] == name]
-        if not own:
-            continue
         errors = np.array([float(row["error"]) for row in own])
         order = np.argsort(errors)
         for column, style, label in (("solver_ms", "-", name), ("process_ms", ":", None)):

@@ -108,6 +108,7 @@ def draw(scene: str, rows: Sequence[dict[str, str]]) -> None:
     axes.set_xlabel("largest relative error of the outputs", fontsize=8)
     axes.set_ylabel("time, ms (dotted: whole process)", fontsize=8)
     axes.tick_params(labelsize=7)
+    axes.xaxis.minorticks_off()
     axes.grid(alpha=0.3)
     axes.legend(fontsize=7)
     figure.savefig(FIGURES / f"peers_{scene}.png", dpi=200)

@@ -3,6 +3,7 @@
 # make lint    formatting, lints, types and documentation, warnings denied
 # make docs    the documentation site, into target/docs, and its examples
 # make bench   criterion benchmarks
+# make bench-peers  run time against error beside AUTO-07p and scipy (apt-get install auto-07p gfortran)
 # make clean   remove what was built
 #
 # The environment is rebuilt only when Cargo.toml, Cargo.lock, pyproject.toml or a Rust source changes.
@@ -17,7 +18,7 @@ export VIRTUAL_ENV := $(CURDIR)/.venv
 # maturin refuses two active environments.
 unexport CONDA_PREFIX
 
-.PHONY: venv develop demo test lint docs bench clean
+.PHONY: venv develop demo test lint docs bench bench-peers clean
 
 venv: .venv/.tools
 develop: .venv/.develop
@@ -61,6 +62,10 @@ docs: .venv/.docs
 
 bench:
 	cargo bench
+
+# One thread for all.
+bench-peers: develop
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 RAYON_NUM_THREADS=1 $(BIN)/python benches/peers/run.py
 
 clean:
 	cargo clean

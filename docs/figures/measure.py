@@ -9,7 +9,6 @@ import sys
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from datetime import datetime, timezone
 from pathlib import Path
-from statistics import median
 from time import perf_counter
 from typing import Any, TypeVar
 
@@ -25,9 +24,9 @@ Name = TypeVar("Name", bound=Hashable)
 
 
 def seconds(runs: Mapping[Name, Callable[[], object]], rounds: int = 7) -> dict[Name, float]:
-    """Median of the seconds of a call to each, all of them in turn, round after round.
+    """The least seconds of a call to each, of rounds in which all take their turn.
 
-    What slows the machine for a while slows one round of all, and not one of them.
+    What else the machine does can only add to a time, and not to all rounds of one.
     """
     counts = {}
     for name, run in runs.items():
@@ -42,7 +41,7 @@ def seconds(runs: Mapping[Name, Callable[[], object]], rounds: int = 7) -> dict[
             for _ in range(counts[name]):
                 run()
             found[name].append((perf_counter() - start) / counts[name])
-    return {name: median(times) for name, times in found.items()}
+    return {name: min(times) for name, times in found.items()}
 
 
 def machine() -> str:

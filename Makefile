@@ -3,6 +3,8 @@
 # make lint    formatting, lints, types and documentation, warnings denied
 # make docs    the documentation site, into target/docs, and its examples
 # make bench   criterion benchmarks
+# make bench-figures   error against time and scaling, measured and drawn, into docs/figures
+# make bench-guard     instructions of units of work against stored numbers; needs valgrind
 # make clean   remove what was built
 #
 # The environment is rebuilt only when Cargo.toml, Cargo.lock, pyproject.toml or a Rust source changes.
@@ -17,7 +19,7 @@ export VIRTUAL_ENV := $(CURDIR)/.venv
 # maturin refuses two active environments.
 unexport CONDA_PREFIX
 
-.PHONY: venv develop demo test lint docs bench clean
+.PHONY: venv develop demo test lint docs bench bench-figures bench-guard clean
 
 venv: .venv/.tools
 develop: .venv/.develop
@@ -61,6 +63,14 @@ docs: .venv/.docs
 
 bench:
 	cargo bench
+
+# One thread, but where scaling.py says otherwise.
+bench-figures: develop
+	for work in work_section work_frame work_boundary scaling; do \
+	  RAYON_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python docs/figures/$$work.py || exit 1; done
+
+bench-guard: venv
+	$(BIN)/python benches/guard.py
 
 clean:
 	cargo clean

@@ -3,10 +3,11 @@
     python benches/guard.py            compares with benches/guard.csv, and fails where one is off by 2 %
     python benches/guard.py --write    writes benches/guard.csv
 
-A unit is an energy, gradient and Hessian of a section, a segment of a frame, or an element of a Newton iteration:
-see benches/guard.rs. Two runs with different repetitions differ by the work alone, not by start and set-up. Counts do
-not depend on what else the machine does. They do depend on the compiler, on the C library and on the instructions
-that valgrind offers, so the file says with which they were counted; after a change of those it is written anew.
+A unit is an energy, gradient and Hessian of a section, a segment of a frame, or an element of a Newton
+iteration: see benches/guard.rs. Two runs with different repetitions differ by the work alone, not by start
+and set-up. Counts do not depend on what else the machine does. They do depend on the compiler, on the C
+library and on the instructions that valgrind offers, so the file says with which they were counted; after a
+change of those it is written anew.
 """
 
 from __future__ import annotations
@@ -35,7 +36,9 @@ def output(*command: str) -> str:
 def built() -> str:
     """The program that does the work, built."""
     command = ["cargo", "build", "--quiet", "--release", "--example", "guard", "--message-format=json"]
-    lines = subprocess.run(command, cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE).stdout.splitlines()
+    lines = subprocess.run(
+        command, cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE
+    ).stdout.splitlines()
     found = [message["executable"] for message in map(json.loads, lines) if message.get("executable")]
     return str(found[-1])
 
@@ -64,7 +67,9 @@ def counted() -> dict[str, float]:
 def conditions() -> str:
     """With what the counts were made."""
     libc = output("ldd", "--version").splitlines()[0]
-    return "; ".join(output(tool, "--version").splitlines()[0] for tool in ("rustc", "valgrind")) + f"; {libc}"
+    return (
+        "; ".join(output(tool, "--version").splitlines()[0] for tool in ("rustc", "valgrind")) + f"; {libc}"
+    )
 
 
 def main() -> int:

@@ -2,15 +2,16 @@
 
     python docs/figures/work_frame.py        writes work_frame.csv and work_frame.png beside this file
 
-The reference is a frame that is prescribed: rotations psi about E3, theta about E2, phi about E3 again, functions of
-S in closed form, whose derivatives are the strains
+The reference is a frame that is prescribed: rotations psi about E3, theta about E2, phi about E3 again,
+functions of S in closed form, whose derivatives are the strains
 
     K1 = theta' sin phi - psi' sin theta cos phi,  K2 = theta' cos phi + psi' sin theta sin phi,
     K3 = phi' + psi' cos theta,                    eps = 0.05 cos S,
 
-and whose position is the integral of (1 + eps) d3, by mpmath with 30 digits. The helix is its own closed form. The
-error is the larger one of position over length and angle at S = 10. Times hold the calls of the strains. This package
-is given them in arrays, scipy's methods one S after the other: that is how each is called from Python.
+and whose position is the integral of (1 + eps) d3, by mpmath with 30 digits. The helix is its own closed
+form. The error is the larger one of position over length and angle at S = 10. Times hold the calls of the
+strains. This package is given them in arrays, scipy's methods one S after the other: that is how each is
+called from Python.
 """
 
 from __future__ import annotations
@@ -111,7 +112,7 @@ def prescribed(angles: Angles) -> Case:
 
 
 def helix(strain: Sequence[float], length: float) -> tuple[Array, Array]:
-    """Position and quaternion after constant strain: a turn by |K| S, and displacements along and around its axis."""
+    """Position and quaternion after constant strain: a turn by |K| S, and the way along and around its axis."""
     with mp.workdps(30):
         eps, *K = map(mpf, strain)
         size = mp.sqrt(sum(k * k for k in K))

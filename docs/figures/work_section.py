@@ -61,8 +61,8 @@ def modal(modes: int, strain: Array) -> Array:
 def differences(cells: int, strain: Array) -> float:
     """The least energy of one section on a grid of equal cells: normal equations with five diagonals.
 
-    1/2 int (P - K2 U)^2 + (eta^2/18) int (U'' + K2/2)^2, P free of its components on 1 and x, by the trapezoidal
-    rule and central differences; U'' + K2/2 vanishes at the edges. The energy is of order 2.
+    1/2 int (P - K2 U)^2 + (eta^2/18) int (U'' + K2/2)^2, P free of its components on 1 and x, by the
+    trapezoidal rule and central differences; U'' + K2/2 vanishes at the edges. The energy is of order 2.
     """
     _, _, K2, K3 = strain
     x = np.linspace(-0.5, 0.5, cells + 1)
@@ -132,7 +132,7 @@ def draw(found: dict[float, list[tuple[str, int, float, float]]]) -> None:
         axes.set_xlabel("seconds a section")
     for axes in panels[::2]:
         axes.set_ylabel("relative error of the energy")
-    panels[0].set_ylim(1e-17, 1e4)
+    panels[0].set_ylim(1e-17, 1e2)
     panels[0].set_xlim(8e-9, 1.5e-3)
     handles, names = panels[0].get_legend_handles_labels()
     figure.legend(handles, names, loc="outside lower center", ncols=3)

@@ -112,7 +112,7 @@ def prescribed(angles: Angles) -> Case:
 
 
 def helix(strain: Sequence[float], length: float) -> tuple[Array, Array]:
-    """Position and quaternion after constant strain: a turn by |K| S, and the way along and around its axis."""
+    """Position and quaternion after constant strain: a turn by |K| S, and the way along its axis."""
     with mp.workdps(30):
         eps, *K = map(mpf, strain)
         size = mp.sqrt(sum(k * k for k in K))

@@ -12,7 +12,7 @@ of modes is this package's formula in numpy, which tells of the number of modes 
 from __future__ import annotations
 
 import sys
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -44,16 +44,23 @@ def strains(bending: float) -> Array:
     return np.column_stack([np.zeros((MANY, 2)), K2, K3])
 
 
-def modal(modes: int, strain: Array) -> Array:
-    """The energies with so many even modes of the section: a sum of squares over singular values."""
+@cache
+def table(modes: int) -> tuple[Array, Array, float]:
+    """Singular values of so many even functions, what the parabola has of each, and its size."""
     n = 2.0 * np.arange(modes)
     off = 0.25 / ((2 * n + 3) * np.sqrt((2 * n + 1) * (2 * n + 5)))
     F = np.diag(off) + np.diag(-0.5 / ((2 * n[1:] + 3) * (2 * n[1:] - 1)), -1) + np.diag(off[1:-1], -2)
     _, sigma, right = np.linalg.svd(F)
+    return sigma, right[:, 0], float(off[0])
+
+
+def modal(modes: int, strain: Array) -> Array:
+    """The energies with so many even modes of the section: a sum of squares over singular values."""
+    sigma, parts, size = table(modes)
     K2, K3 = strain[:, 2], strain[:, 3]
-    mismatch = (K3**2 + K2**2 / 2 - 8 * XI) * off[0]
+    mismatch = (K3**2 + K2**2 / 2 - 8 * XI) * size
     k2 = 9.0 * (K2 / ETA) ** 2
-    relaxed = sum(c**2 / (1.0 + s**2 * k2) for c, s in zip(right[:, 0], sigma, strict=True))
+    relaxed = sum(c**2 / (1.0 + s**2 * k2) for c, s in zip(parts, sigma, strict=True))
     stiff = (K3**2 / 24 - XI / 3) ** 2 / 2 + ETA**2 * (K2**2 / 24 + K3**2 / 18)
     return np.asarray(stiff + mismatch**2 * relaxed / 2)
 

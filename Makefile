@@ -4,6 +4,8 @@
 # make docs    the documentation site, into target/docs, and its examples
 # make bench   criterion benchmarks
 # make bench-peers  run time against error beside AUTO-07p and scipy (apt-get install auto-07p gfortran)
+# make bench-figures   error against time and scaling, measured and drawn, into docs/figures
+# make bench-guard     instructions of units of work against stored numbers; needs valgrind
 # make clean   remove what was built
 #
 # The environment is rebuilt only when Cargo.toml, Cargo.lock, pyproject.toml or a Rust source changes.
@@ -18,7 +20,7 @@ export VIRTUAL_ENV := $(CURDIR)/.venv
 # maturin refuses two active environments.
 unexport CONDA_PREFIX
 
-.PHONY: venv develop demo test lint docs bench bench-peers clean
+.PHONY: venv develop demo test lint docs bench bench-peers bench-figures bench-guard clean
 
 venv: .venv/.tools
 develop: .venv/.develop
@@ -66,6 +68,14 @@ bench:
 # One thread for all.
 bench-peers: develop
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 RAYON_NUM_THREADS=1 $(BIN)/python benches/peers/run.py
+
+# One thread, but where scaling.py says otherwise.
+bench-figures: develop
+	for work in work_section work_frame work_boundary scaling; do \
+	  RAYON_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python docs/figures/$$work.py || exit 1; done
+
+bench-guard: venv
+	$(BIN)/python benches/guard.py
 
 clean:
 	cargo clean

@@ -27,13 +27,13 @@ ROUNDING = {"elastica": 1e-14, "ribbon": 1e-12}
 """Errors below this say nothing about an order."""
 
 
-def elastica() -> np.ndarray[Any, Any]:
-    """Position, quaternion, strain and curvatures of the elastica at PLACE, in the order of the table.
+def elastica(load: float = LOAD, place: Any = PLACE) -> np.ndarray[Any, Any]:
+    """Position, quaternion, strain and curvatures of the elastica at a place, in the order of the table.
 
-    With p sin phi = ((1 + sin theta)/2)^(1/2), u = F(phi, p^2) grows by LOAD^(1/2) per unit of S.
+    With p sin phi = ((1 + sin theta)/2)^(1/2), u = F(phi, p^2) grows by load^(1/2) per unit of S.
     """
     with mp.workdps(40):
-        root = mp.sqrt(LOAD)
+        root = mp.sqrt(load)
 
         def base(tip: Any) -> tuple[Any, Any]:
             """Phi at the base and p^2, of a tip angle."""
@@ -44,11 +44,11 @@ def elastica() -> np.ndarray[Any, Any]:
             phi, m = base(tip)
             return mp.ellipk(m) - mp.ellipf(phi, m) - root
 
-        phi, m = base(mp.findroot(excess, (mpf("0.5"), mpf("1.4")), solver="illinois", tol=1e-60))
+        phi, m = base(mp.findroot(excess, (mpf("0.5"), mpf("1.5")), solver="illinois", tol=1e-60))
         start = mp.ellipf(phi, m)
-        u = start + root * PLACE
+        u = start + root * place
         sn, cn = (mp.ellipfun(name, u, m=m) for name in ("sn", "cn"))
-        x = PLACE - 2 * (mp.ellipe(mp.atan2(sn, cn), m) - mp.ellipe(phi, m)) / root
+        x = place - 2 * (mp.ellipe(mp.atan2(sn, cn), m) - mp.ellipe(phi, m)) / root
         z = 2 * mp.sqrt(m) / root * (mp.ellipfun("cn", start, m=m) - cn)
         half = mp.asin(2 * m * sn**2 - 1) / 2
         curvature = 2 * mp.sqrt(m) * root * cn

@@ -94,14 +94,18 @@ def misses(state):
     scene, frame = state.scene, Frame(state)
     length = scene.ribbon.length_ratio
     found = {"frame": _frame(state, frame, length), "strains": _law(scene, frame, length)}
-    N, M = (np.einsum("njp,njpq->njq", v, frame.directors) for v in (frame.sections.force, frame.sections.moment))
+    N, M = (
+        np.einsum("njp,njpq->njq", v, frame.directors) for v in (frame.sections.force, frame.sections.moment)
+    )
     ends = state.at([0.0, length])
     force, moment = (np.einsum("np,npq->nq", v, ends.directors) for v in (ends.force, ends.moment))
     soft = scene.ribbon.thickness_ratio**2 / 12.0 / length
     unit = max(np.abs(M).max(), length * np.abs(N).max(), soft)
     found["balance"] = _balance(scene, frame, N, M, force[1], moment[1], length) / unit
     r, R = frame.end
-    found["start"] = _end(scene.start, pose(scene.start)[0], ends.position[0], ends.directors[0].T, None, None, length, unit)
+    found["start"] = _end(
+        scene.start, pose(scene.start)[0], ends.position[0], ends.directors[0].T, None, None, length, unit
+    )
     found["end"] = _end(scene.end, scene.places[1], r, R, force[1], moment[1], length, unit)
     found["energy"] = _energy(state, scene, frame, length)
     return found
@@ -134,7 +138,9 @@ def _balance(scene, frame, N, M, force, moment, length):
     beyond = after[:, None] + inside
     rest = (length - frame.S)[..., None]
     expected_force = force + rest * p
-    expected_moment = moment + np.cross(r - frame.position, force) + np.cross(beyond - rest * frame.position, p)
+    expected_moment = (
+        moment + np.cross(r - frame.position, force) + np.cross(beyond - rest * frame.position, p)
+    )
     return max(length * np.abs(N - expected_force).max(), np.abs(M - expected_moment).max())
 
 

@@ -1,6 +1,6 @@
 """Many scenes in processes of their own, which may hang or die: a table that a second run completes.
 
-    python -m stress.sweep 10000 scenes.csv
+python -m stress.sweep 10000 scenes.csv
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """Frames of very many segments and turns, against exact curves.
 
-Rounding moves a frame by at most a few units of 2^-53 a segment; it accumulates like the root of their number, as
-long as it has no preferred direction. The bounds are in units of 2^-53 times the number of segments: what an
-unlucky direction would make of one unit a segment.
+Rounding moves a frame by a few units of 2^-53 a segment, which add up like the root of their number as long as
+they have no preferred direction. An eighth of 2^-53 times the number is allowed.
 """
 
 from __future__ import annotations
@@ -94,7 +93,7 @@ def turns(number):
 
 
 def straight(n):
-    """No curvature, and curvatures from the least number on: a straight line to rounding, without a switch seen."""
+    """No curvature, and curvatures from the least number on, without a switch seen."""
     S = np.linspace(0.0, 10.0, n + 1)
     r, q = rb.integrate_frame(S, np.zeros((n, 4)))
     error = away((r, q), np.outer(S, [0, 0, 1]), np.eye(3), 10.0)

@@ -21,8 +21,8 @@ INCOMPRESSIBLE = (4 / 3, 4 / 3, 2 / 3, 1 / 3)
 STEP = np.longdouble("1e-60")
 """Of the complex steps: nothing is subtracted, so that only its square must vanish."""
 
-ALLOWED = {"energy": 3e-15, "gradient": 3e-15, "hessian": 3e-14}
-"""Relative errors, of the scales below: a dozen roundings of the values, a hundred of second derivatives."""
+ALLOWED = {"energy": 3e-15, "gradient": 3e-15, "hessian": 1e-13}
+"""Relative errors, of the scales below: a dozen roundings of values and slopes, a few hundred of second derivatives."""
 
 
 def sigma(w):

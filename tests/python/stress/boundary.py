@@ -74,7 +74,11 @@ def overloaded():
     judge, eta, length = Judge(), 0.01, 50.0
     euler = math.pi**2 / 4 * bending(length, eta)
     for factor in (1.0, 10.0, 100.0, 1e3, 1e4):
-        for name, direction in {"pressed": (1e-3, 0, -1), "pushed": (1, 0, 0), "pulled": (0.3, 0.1, 1)}.items():
+        for name, direction in {
+            "pressed": (1e-3, 0, -1),
+            "pushed": (1, 0, 0),
+            "pulled": (0.3, 0.1, 1),
+        }.items():
             force = factor * euler * np.array(direction)
             scene = rb.Scene(rb.Ribbon(length, 1.0, eta), EDGES(2 * eta**2), end=rb.Free(force=force))
             judge.solve((name, factor), scene)

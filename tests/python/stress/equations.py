@@ -125,9 +125,7 @@ def _frame(state, frame, length):
 def _law(scene, frame, length):
     strains = frame.sections.strains.reshape(-1, 4)
     S = frame.S.ravel()
-    resultants = np.column_stack(
-        [frame.sections.force[..., 2].ravel(), frame.sections.moment.reshape(-1, 3)]
-    )
+    resultants = np.column_stack([frame.sections.force[..., 2].ravel(), frame.sections.moment.reshape(-1, 3)])
     if isinstance(scene.law, rb.LinearLaw):
         away = strains - scene.law.intrinsic - np.array(scene.law.compliance) * resultants
         return np.max(np.abs(away) * np.array([1.0, length, length, length]))

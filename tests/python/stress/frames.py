@@ -1,7 +1,7 @@
 """Frames of very many segments and turns, against exact curves.
 
-Rounding moves a frame by a few units of 2^-53 a segment, which add up like the root of their number as long as
-they have no preferred direction. An eighth of 2^-53 times the number is allowed.
+Rounding moves a frame by a few units of 2^-53 a segment, which add up like the root of their number as long
+as they have no preferred direction. An eighth of 2^-53 times the number is allowed.
 """
 
 from __future__ import annotations

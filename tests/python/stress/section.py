@@ -22,7 +22,7 @@ STEP = np.longdouble("1e-60")
 """Of the complex steps: nothing is subtracted, so that only its square must vanish."""
 
 ALLOWED = {"energy": 3e-15, "gradient": 3e-15, "hessian": 1e-13}
-"""Relative errors, of the scales below: a dozen roundings of values and slopes, a few hundred of second derivatives."""
+"""Relative errors, of the scales below: a dozen roundings of values, a few hundred of second derivatives."""
 
 
 def sigma(w):

@@ -17,8 +17,8 @@ from pathlib import Path
 from .scenes import random_scene
 from .trial import LIMIT, Trial, trial
 
-PATIENCE = 3.0 * LIMIT
-"""Seconds after which a process hangs: the limit, and time for the judge on a busy machine."""
+PATIENCE = 12.0 * LIMIT
+"""Seconds after which a process counts as hanging: the limit, with others at work, too."""
 
 
 def work(pipe):

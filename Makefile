@@ -3,6 +3,7 @@
 # make lint    formatting, lints, types and documentation, warnings denied
 # make docs    the documentation site, into target/docs, and its examples
 # make bench   criterion benchmarks
+# make stress  extreme input, 10,000 random scenes, kills and interrupts: half an hour (docs/stress.md)
 # make clean   remove what was built
 #
 # The environment is rebuilt only when Cargo.toml, Cargo.lock, pyproject.toml or a Rust source changes.
@@ -17,7 +18,7 @@ export VIRTUAL_ENV := $(CURDIR)/.venv
 # maturin refuses two active environments.
 unexport CONDA_PREFIX
 
-.PHONY: venv develop demo test lint docs bench clean
+.PHONY: venv develop demo test lint docs bench stress clean
 
 venv: .venv/.tools
 develop: .venv/.develop
@@ -61,6 +62,12 @@ docs: .venv/.docs
 
 bench:
 	cargo bench
+
+# SCENES=300 for fewer; the table of scenes is resumed where it was left.
+SCENES ?= 10000
+stress: develop
+	mkdir -p target
+	PYTHONPATH=tests/python $(BIN)/python -m stress $(SCENES) target/scenes.csv
 
 clean:
 	cargo clean

@@ -55,16 +55,16 @@ def at_buckling_loads():
                 worst = math.inf
                 continue
             missed = misses(state)
-            worst = max(worst, max(missed.values()) / max(TOL, state.report.error))
+            worst = max(worst, max(missed.values()) / TOL)
     return Row("branches", "columns at buckling, within 1e-15 to 1e-2", runs, worst, ALLOWED, "tolerances")
 
 
 def right_chirality(omega, most=8.0):
     """Whether edge growth traced with a trace of chirality gives the branches that the law has.
 
-    With C = K3^2/2 - 4 xi and eta = 1, twisted states obey C = -20 (1 - omega/k3), xi = k3^2/8 + 5 (1 - omega/k3):
-    one branch from xi = 0 with k3 > 0, and one with k3 < 0 and a fold where k3^3 = -20 omega. The first
-    bends where C = 14 - 1036^(1/2). There are no other bifurcations.
+    With C = K3^2/2 - 4 xi and eta = 1, twisted states obey C = -20 (1 - omega/k3), so that
+    xi = k3^2/8 + 5 (1 - omega/k3): one branch from xi = 0 with k3 > 0, and one with k3 < 0 and a fold where
+    k3^3 = -20 omega. The first bends where C = 14 - 1036^(1/2). There are no other bifurcations.
     """
     growth = rb.growth.edge(0.0) + rb.growth.chiral(2.0 * ETA * omega)
     diagram = rb.trace(rb.Scene(LEAF, growth), "growth.edge.amplitude", (0.0, most * ETA**2))
@@ -119,7 +119,7 @@ def imperfect_columns():
 
 
 def many_steps(count=10_000):
-    """The same, where a load is asked for so often that there are ten thousand steps; some states are judged."""
+    """The same, of ten thousand steps, for so many loads are asked for; some states are judged."""
     values = np.linspace(-30.0, 0.0, count + 2)[1:-1]
     branch = stays(0.1, values.tolist(), 2 * count)
     if branch is None or not np.all(np.isin(values, branch.parameter)):

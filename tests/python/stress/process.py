@@ -51,11 +51,16 @@ def digest():
     return known.hexdigest()
 
 
-def python(code, threads="2", **arguments):
+def environment(threads="2"):
+    """That of a process which finds the modules of this one."""
+    path = os.pathsep.join(map(os.path.abspath, sys.path))
+    return {**os.environ, "PYTHONPATH": path, "RAYON_NUM_THREADS": threads}
+
+
+def python(code, threads="2"):
     """A process that runs code of this package."""
-    environment = {**os.environ, "RAYON_NUM_THREADS": threads}
     return subprocess.Popen(
-        [sys.executable, "-c", code], env=environment, text=True, stdout=subprocess.PIPE, **arguments
+        [sys.executable, "-c", code], env=environment(threads), text=True, stdout=subprocess.PIPE
     )
 
 
@@ -119,10 +124,10 @@ n = {n}
 [output]
 phases = "map.npz"
 """
-NATURAL = {"end": "", "most": 0.1, "n": 2000}
+NATURAL = {"end": "", "most": 0.1, "n": 1200}
 HELD = {"end": "[end]\nkind = 'pinned'", "most": 0.04, "n": 200}
-ANSWER = 2.0
-"""Seconds in which an interrupt is to be answered, on a machine that does other things, too."""
+ANSWER = 5.0
+"""Seconds from an interrupt to the end, in which the map so far is written, on a busy machine."""
 
 
 def interrupted(runs=8):
@@ -132,11 +137,10 @@ def interrupted(runs=8):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             (folder / "scene.toml").write_text(SWEEP.format(**(HELD if i % 2 else NATURAL)))
-            environment = {**os.environ, "PYTHONPATH": os.pathsep.join(map(os.path.abspath, sys.path))}
             process = subprocess.Popen(
                 [sys.executable, "-m", "ribbonrs", "sweep", "scene.toml"],
                 cwd=folder,
-                env=environment,
+                env=environment(),
                 text=True,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,

@@ -21,23 +21,23 @@ PATIENCE = 12.0 * LIMIT
 """Seconds after which a process counts as hanging: the limit, with others at work, too."""
 
 
-def work(pipe):
+def work(pipe, task):
     """Try what seeds come, until there are none."""
     while (seed := pipe.recv()) is not None:
-        pipe.send(trial(seed))
+        pipe.send(task(seed))
 
 
 class Worker:
     """A process that tries one scene at a time."""
 
-    def __init__(self, context):
-        self.context = context
+    def __init__(self, context, task, patience):
+        self.context, self.task, self.patience = context, task, patience
         self.started()
 
     def started(self):
         """Start the process, anew if it was there before."""
         self.pipe, theirs = self.context.Pipe()
-        self.process = self.context.Process(target=work, args=(theirs,), daemon=True)
+        self.process = self.context.Process(target=work, args=(theirs, self.task), daemon=True)
         self.process.start()
         theirs.close()
 
@@ -56,8 +56,8 @@ class Worker:
             except EOFError:
                 self.process.join()
                 return self.lost("crash", f"exit code {self.process.exitcode}")
-        if time.monotonic() - self.since > PATIENCE:
-            return self.lost("hang", f"no answer in {PATIENCE:g} s")
+        if time.monotonic() - self.since > self.patience:
+            return self.lost("hang", f"no answer in {self.patience:g} s")
         return None
 
     def lost(self, result, reason):
@@ -70,13 +70,15 @@ class Worker:
         return Trial(seed, kind, varies, result, reason=reason)
 
 
-def trials(seeds, processes=2):
-    """Yield the trial of every seed as it comes."""
+def trials(seeds, processes=2, task=trial, patience=PATIENCE):
+    """Yield what `task` says of every seed, as it comes."""
     # One thread each; the setting is read by the processes that are started.
     os.environ["RAYON_NUM_THREADS"] = "1"
     context = get_context("spawn")
     left = iter(seeds)
-    busy = [worker for worker in (Worker(context) for _ in range(processes)) if worker.give(left)]
+    busy = [
+        worker for worker in (Worker(context, task, patience) for _ in range(processes)) if worker.give(left)
+    ]
     while busy:
         wait([worker.pipe for worker in busy], timeout=1.0)
         for worker in list(busy):

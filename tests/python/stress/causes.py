@@ -1,8 +1,8 @@
 """Why random scenes are not solved: `python -m stress.causes scenes.csv`.
 
-In this order: natural shape jumps, what hangs free without load already has kinks, which no smooth solution of
-the boundary-value problem has; section unstable, the last solution on the way has sections that are unstable, where
-equilibria are kinked, too; fold, it is unstable as a whole; other, it is stable, or there is none.
+The first of these that is true. Natural shape jumps: what hangs free without load already has kinks, which no
+smooth solution of the boundary-value problem has. Section unstable: the last solution on the way has unstable
+sections, where equilibria may be kinked, too. Fold: that solution is unstable as a whole. Other.
 """
 
 from __future__ import annotations

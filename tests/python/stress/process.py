@@ -132,7 +132,9 @@ ANSWER = 5.0
 
 def interrupted(runs=8):
     """Ctrl-C in `ribbonrs sweep`: it ends soon, says 130, and a map that it wrote says so, too."""
-    bad = 0
+    begun, bad = time.monotonic(), 0
+    python("import ribbonrs.cli, ribbonrs.phasediagram").communicate()
+    loading = time.monotonic() - begun
     for i in range(runs):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
@@ -145,7 +147,7 @@ def interrupted(runs=8):
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,
             )
-            time.sleep(1.5 + 0.2 * i)
+            time.sleep(2.0 * loading + 0.2 * i)
             process.send_signal(signal.SIGINT)
             begun = time.monotonic()
             err = process.communicate()[1]

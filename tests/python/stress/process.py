@@ -143,6 +143,8 @@ def interrupted(runs=8):
                 [sys.executable, "-m", "ribbonrs", "sweep", "scene.toml"],
                 cwd=folder,
                 env=environment(),
+                # shells start what runs in the background deaf to Ctrl-C, and children inherit that
+                preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
                 text=True,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,

@@ -29,6 +29,8 @@ def scene_rows(table):
     for kind in KINDS:
         for varies in ("False", "True"):
             rows = [row for row in table if (row["kind"], row["varies"]) == (kind, varies)]
+            if not rows:
+                continue
             results = Counter(row["result"] for row in rows)
             defects = sum(results[name] for name in DEFECTS)
             solvable = len(rows) - results["refused"]

@@ -3,9 +3,10 @@
 # make lint    formatting, lints, types and documentation, warnings denied
 # make docs    the documentation site, into target/docs, and its examples
 # make bench   criterion benchmarks
-# make bench-peers  run time against error beside AUTO-07p and scipy (apt-get install auto-07p gfortran)
+# make bench-peers     run time against error beside AUTO-07p and scipy (apt-get install auto-07p gfortran)
 # make bench-figures   error against time and scaling, measured and drawn, into docs/figures
 # make bench-guard     instructions of units of work against stored numbers; needs valgrind
+# make stress          extreme input, 10,000 random scenes, kills and interrupts: half an hour (docs/stress.md)
 # make clean   remove what was built
 #
 # The environment is rebuilt only when Cargo.toml, Cargo.lock, pyproject.toml or a Rust source changes.
@@ -20,7 +21,7 @@ export VIRTUAL_ENV := $(CURDIR)/.venv
 # maturin refuses two active environments.
 unexport CONDA_PREFIX
 
-.PHONY: venv develop demo test lint docs bench bench-peers bench-figures bench-guard clean
+.PHONY: venv develop demo test lint docs bench bench-peers bench-figures bench-guard stress clean
 
 venv: .venv/.tools
 develop: .venv/.develop
@@ -76,6 +77,12 @@ bench-figures: develop
 
 bench-guard: venv
 	$(BIN)/python benches/guard.py
+
+# SCENES=300 for fewer; the table of scenes is resumed where it was left.
+SCENES ?= 10000
+stress: develop
+	mkdir -p target
+	PYTHONPATH=tests/python $(BIN)/python -m stress $(SCENES) target/scenes.csv
 
 clean:
 	cargo clean

@@ -1,0 +1,1 @@
+"""Stress: what `make stress` runs, each file a set of checks."""

@@ -378,9 +378,13 @@ fn unresolved<E: Equations>(
     before: f64,
 ) -> Option<(E::State, f64)> {
     let Found { point, kind: SpecialKind::BranchPoint, multiplicity } = found else { return None };
-    let across = across(equations, point, *multiplicity).into_iter().next()?;
-    let aside = stepped(equations, point, &across, limits)?;
-    let error = equations.parameter_error(&aside.x, aside.t, &across).ok()?.abs();
+    let off = across(equations, point, *multiplicity).into_iter().next();
+    let aside = off.and_then(|off| Some((stepped(equations, point, &off, limits)?, off)));
+    let error = match aside {
+        Some((aside, off)) => equations.parameter_error(&aside.x, aside.t, &off).ok()?.abs(),
+        // No other branch is found: once more on a finer mesh.
+        None => UNKNOWN,
+    };
     // What a finer mesh did not help is rounding.
     if error < MOVED || error > 0.25 * before {
         return None;
@@ -388,8 +392,9 @@ fn unresolved<E: Equations>(
     Some((equations.doubled(&point.x, point.t).ok()??, error))
 }
 
-/// Error of the parameter at a branch point that is too large.
+/// Error of the parameter at a branch point that is too large, and one that stands for an unknown one.
 const MOVED: f64 = 2e-11;
+const UNKNOWN: f64 = 1.0;
 
 /// Whether the branch has come back to its first point.
 fn is_closed<E: Equations>(equations: &mut E, branch: &BranchOf<E>, last: usize) -> bool {

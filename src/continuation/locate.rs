@@ -262,7 +262,10 @@ fn located<E: Equations>(
     // Places are measured along the tangent at a, at right angles to which all points are corrected: b's may be a little less.
     let mut tried: Vec<PointOf<E>> = Vec::new();
     let mut lengths = [f64::INFINITY; 2];
+    let mut previous = f64::INFINITY;
     let mut spread = SPREAD.min(0.1 * (b.s - a.s));
+    // The least error so far, its place, and how near values were taken.
+    let mut best = (f64::INFINITY, 0.0, spread);
     for _ in 0..MOST {
         let length = high.s - low.s;
         let multiplicity = index(&low).abs_diff(index(&high)).max(1);
@@ -273,23 +276,30 @@ fn located<E: Equations>(
             known = vec![value(&low), value(&high)];
         }
         let (place, error) = root(&known);
+        let error = error.max((place - previous).abs());
+        previous = place;
         let inside = low.s - NEAREST < place && place < high.s + NEAREST;
-        if tried.len() >= MEMORY && inside && error < EXACT {
-            let mut nearest: Vec<&PointOf<E>> = tried.iter().rev().take(MEMORY).collect();
-            nearest.sort_by(|p, q| (p.s - place).abs().total_cmp(&(q.s - place).abs()));
-            if gap(equations, &low, &high) > GAP * length.abs().max(NEAREST) {
-                return None;
-            }
-            return Some(between_two(equations, nearest[1], nearest[0], place, &a.along));
-        }
-        if length < NEAREST {
-            let one = gap(equations, &low, &high) < GAP * NEAREST;
-            return if one { tried.pop() } else { None };
+        if tried.len() >= MEMORY && inside && error < best.0 {
+            best = (error, place, spread);
         }
         // Around the root, not at it: there the equations are singular, and another branch is as near.
         let near = tried.iter().filter(|point| (point.s - place).abs() < 2.0 * spread).count();
         if near >= MEMORY {
             spread *= 0.4;
+        }
+        // What does not get better nearer the root is rounding.
+        let rounding = spread < 0.1 * best.2 && best.0 * a.along.t.abs().max(b.along.t.abs()) < ROUNDING;
+        if best.0 < EXACT || rounding {
+            if gap(equations, &low, &high) > GAP * length.abs().max(NEAREST) {
+                return None;
+            }
+            let apart = |point: &PointOf<E>| (point.s - best.1).abs();
+            tried.sort_by(|p, q| apart(p).total_cmp(&apart(q)));
+            return Some(between_two(equations, &tried[1], &tried[0], best.1, &a.along));
+        }
+        if length < NEAREST {
+            let one = gap(equations, &low, &high) < GAP * NEAREST;
+            return if one { tried.pop() } else { None };
         }
         let mut next = place + [0.5, -0.5, 1.0, -1.0, 1.5][near % MEMORY] * spread;
         // By halves where the interval does not shrink so fast, and is not small yet.
@@ -383,5 +393,7 @@ fn between_two<E: Equations>(
 
 /// Estimate of an error of a search that is small enough.
 const EXACT: f64 = 2e-12;
+/// Of the parameter, where rounding keeps it larger.
+const ROUNDING: f64 = 1e-10;
 /// An interval that is no longer divided.
 const NEAREST: f64 = 1e-7;

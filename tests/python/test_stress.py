@@ -130,11 +130,9 @@ def test_rows(rows):
     assert [row for row in rows() if not row.passed] == []
 
 
-@pytest.mark.xfail(strict=True, reason="the trace steps across the unfolded bifurcation")
 def test_a_column_with_a_force_across_has_one_branch():
     assert branches.stays(0.01) is not None
 
 
-@pytest.mark.xfail(strict=True, reason="the trace steps across the unfolded bifurcation")
 def test_a_trace_of_chirality_keeps_the_branches_apart():
     assert branches.right_chirality(1e-4)

@@ -9,7 +9,6 @@ import os
 import zipfile
 import zlib
 from collections.abc import Callable
-from importlib.metadata import version
 from os import PathLike
 from typing import Any, NamedTuple, TypeVar
 
@@ -58,6 +57,8 @@ def save(kind: Format, path: str | PathLike[str], contents: dict[str, Any]) -> N
     """
     check_path(path, [".npz"])
     about: dict[str, Any] = {"format": kind.name, "version": kind.version}
+    from importlib.metadata import version  # slow to load
+
     about["ribbonrs_version"] = version("ribbonrs")
     with replacing(path) as temporary, temporary.open("wb") as file:
         np.savez_compressed(file, **about, **contents)

@@ -10,7 +10,6 @@ import tempfile
 from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
-from importlib.metadata import version
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -162,6 +161,8 @@ def _write_obj(state: State, path: Path) -> None:
 
 
 def _write_npz(state: State, path: Path) -> None:
+    from importlib.metadata import version  # slow to load
+
     ribbon, physical, reactions = state.scene.ribbon, state.physical, state.reactions
     x = np.linspace(-0.5, 0.5, NX)
     force_unit = ribbon.material.Y * ribbon.thickness * ribbon.width

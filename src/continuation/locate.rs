@@ -30,7 +30,7 @@ pub fn special_points<E: Equations>(
     limits: &Limits,
 ) -> Result<Vec<Found<E>>, Failed> {
     let mut found = Vec::new();
-    between(equations, a, b, 0, &mut found)?;
+    between(equations, a, b, limits, 0, &mut found)?;
     let mut ends: Vec<&PointOf<E>> = vec![a];
     ends.extend(found.iter().map(|special| &special.point));
     ends.push(b);
@@ -64,6 +64,7 @@ fn between<E: Equations>(
     equations: &mut E,
     a: &PointOf<E>,
     b: &PointOf<E>,
+    limits: &Limits,
     depth: usize,
     found: &mut Vec<Found<E>>,
 ) -> Result<(), Failed> {
@@ -87,10 +88,10 @@ fn between<E: Equations>(
     // Several in one interval are told apart by halves of it.
     let several = depth < DEEPEST && turns && (unstable[0] != unstable[1] || multiplicity > 1);
     if several && let Some(middle) = at(equations, a, b, 0.5 * (b.s - a.s)) {
-        between(equations, a, &middle, depth + 1, found)?;
-        return between(equations, &middle, b, depth + 1, found);
+        between(equations, a, &middle, limits, depth + 1, found)?;
+        return between(equations, &middle, b, limits, depth + 1, found);
     }
-    let point = located(equations, a, b, kind, turns).ok_or(Failed::Jumped)?;
+    let point = located(equations, a, b, kind, turns, limits).ok_or(Failed::Jumped)?;
     // Those that are not at the same place.
     let aside = ASIDE * (b.s - a.s);
     let right = (multiplicity > 1 && depth < DEEPEST && point.s + aside < b.s)
@@ -103,7 +104,7 @@ fn between<E: Equations>(
     let multiplicity =
         right.as_ref().map_or(multiplicity, |right| changed(&a.stability, &right.stability).max(1));
     found.push(Found { point, kind, multiplicity });
-    right.map_or(Ok(()), |right| between(equations, &right, b, depth + 1, found))
+    right.map_or(Ok(()), |right| between(equations, &right, b, limits, depth + 1, found))
 }
 
 /// Whether the determinant has another sign, where it is known.
@@ -224,6 +225,7 @@ fn located<E: Equations>(
     b: &PointOf<E>,
     kind: SpecialKind,
     turns: bool,
+    limits: &Limits,
 ) -> Option<PointOf<E>> {
     let start = a.stability.clone();
     let before = |point: &PointOf<E>| match kind {
@@ -254,8 +256,10 @@ fn located<E: Equations>(
         if before(&middle) { low = middle } else { high = middle }
     }
     // Else what changes, changes from one branch to another: also beyond a fold, where the index is another one.
-    let passed = turns && start.index == b.stability.index && start.index != high.stability.index;
-    if passed || gap(equations, &low, &high) > GAP * (high.s - low.s) {
+    let from_the_side = turns && start.index == b.stability.index;
+    if from_the_side && start.index != high.stability.index
+        || gap(equations, &low, &high) > GAP * (high.s - low.s)
+    {
         return None;
     }
     let (a, b) = (low.clone(), high.clone());
@@ -295,6 +299,17 @@ fn located<E: Equations>(
             }
             let apart = |point: &PointOf<E>| (point.s - best.1).abs();
             tried.sort_by(|p, q| apart(p).total_cmp(&apart(q)));
+            // A branch that meets another from the side turns where the equations are singular. An imperfection of f, and a mesh
+            // that is not symmetric is one of its error, moves it by about the third root of f.
+            let crossing = |point: &PointOf<E>| {
+                let (here, first) = point.stability.determinant.zip(start.determinant)?;
+                Some((point.s, here.sign * (here.log - first.log).exp()))
+            };
+            let crossings: Option<Vec<_>> = tried.iter().take(MEMORY).map(crossing).collect();
+            let beside = 2.0 * limits.tolerance.cbrt();
+            if from_the_side && crossings.is_some_and(|values| !((root(&values).0 - best.1).abs() < beside)) {
+                return None;
+            }
             return Some(between_two(equations, &tried[1], &tried[0], best.1, &a.along));
         }
         if length < NEAREST {

@@ -299,21 +299,15 @@ fn located<E: Equations>(
             }
             let apart = |point: &PointOf<E>| (point.s - best.1).abs();
             tried.sort_by(|p, q| apart(p).total_cmp(&apart(q)));
-            // A branch that meets another from the side turns where the equations are singular. An imperfection of f, and a mesh
-            // that is not symmetric is one of its error, moves it by about the third root of f.
-            let crossing = |point: &PointOf<E>| {
-                let (here, first) = point.stability.determinant.zip(start.determinant)?;
-                Some((point.s, here.sign * (here.log - first.log).exp()))
-            };
-            let crossings: Option<Vec<_>> = tried.iter().take(MEMORY).map(crossing).collect();
-            let beside = 2.0 * limits.tolerance.cbrt();
-            if from_the_side && crossings.is_some_and(|values| !((root(&values).0 - best.1).abs() < beside)) {
+            if from_the_side && passes_by::<E>(&tried[..tried.len().min(MEMORY)], best.1, limits) {
                 return None;
             }
             return Some(between_two(equations, &tried[1], &tried[0], best.1, &a.along));
         }
         if length < NEAREST {
-            let one = gap(equations, &low, &high) < GAP * NEAREST;
+            let last = &tried[tried.len().saturating_sub(MEMORY)..];
+            let one = gap(equations, &low, &high) < GAP * NEAREST
+                && !(from_the_side && passes_by::<E>(last, low.s, limits));
             return if one { tried.pop() } else { None };
         }
         let mut next = place + [0.5, -0.5, 1.0, -1.0, 1.5][near % MEMORY] * spread;
@@ -342,6 +336,21 @@ fn located<E: Equations>(
         tried.push(point);
     }
     None
+}
+
+/// Whether a branch that turns at a place passes by another and does not meet it there: the equations are not singular where it turns,
+/// but beside. An imperfection of f, and a mesh that is not symmetric is one of its error, moves that by about the third root of f.
+fn passes_by<E: Equations>(points: &[PointOf<E>], place: f64, limits: &Limits) -> bool {
+    let first = points.first().and_then(|point| point.stability.determinant);
+    let value = |point: &PointOf<E>| {
+        let (here, first) = point.stability.determinant.zip(first)?;
+        Some((point.s, here.sign * (here.log - first.log).exp()))
+    };
+    let values: Option<Vec<_>> = points.iter().map(value).collect();
+    values.is_some_and(|values| {
+        let beside = (root(&values).0 - place).abs();
+        beside.is_nan() || beside > 2.0 * limits.tolerance.cbrt()
+    })
 }
 
 /// How far apart two points are in space.

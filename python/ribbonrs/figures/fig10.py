@@ -75,7 +75,7 @@ def fig10(
     along = [solve(edges.grown(eta, x, omega), method="collocation") for x in places]
     closed = _eq64(eta, perfect.span[1])
 
-    figure = new_figure(PAGE, 6.3)
+    figure = new_figure(PAGE, 5.6)
     axes = figure.subplots(3, 2)
     for row, (diagram, prime) in enumerate(((perfect, ""), (unfolded, "$'$"))):
         told = rf"$\omega$ = {omega:g}" if prime else "no chirality"
@@ -130,15 +130,17 @@ def _draw_branches(axes: Axes, diagram: Diagram, quantity: str, eta: float) -> N
                 height = line.curve.at(point.place, point.parameter)
                 axes.plot(point.parameter, height, MARKS[point.kind], color=INK, markersize=3.8, zorder=3.0)
     axes.set(xlim=diagram.span, xlabel=r"edge growth $\xi$")
-    axes.margins(y=0.3)
-    for point in diagram.special_points:
-        if point.kind in MARKS:
-            axes.axvline(point.parameter, color="0.8", linewidth=0.6, zorder=0.5)
-            name = rf"{point.parameter / eta**2:.4g} $\eta^2$"
-            box = {"facecolor": "white", "edgecolor": "none", "pad": 0.4}
-            along = axes.get_xaxis_transform()
-            style = {"rotation": 90, "ha": "center", "va": "bottom", "fontsize": 6.5, "bbox": box}
-            axes.text(point.parameter, 0.03, name, transform=along, zorder=0.6, **style)
+    axes.margins(y=0.45)
+    marked = [point for point in diagram.special_points if point.kind in MARKS]
+    # Below and above in turn: neighbours leave no room beside each other.
+    for i, point in enumerate(marked):
+        place, grows = ((0.03, "bottom"), (0.97, "top"))[i % 2]
+        axes.axvline(point.parameter, color="0.8", linewidth=0.6, zorder=0.5)
+        name = rf"{point.parameter / eta**2:.4g} $\eta^2$"
+        box = {"facecolor": "white", "edgecolor": "none", "pad": 0.4}
+        along = axes.get_xaxis_transform()
+        style = {"rotation": 90, "ha": "center", "va": grows, "fontsize": 6.5, "bbox": box}
+        axes.text(point.parameter, place, name, transform=along, zorder=0.6, **style)
 
 
 def _draw_along(axes: Axes, state: State) -> None:

@@ -63,7 +63,7 @@ def fig11(
     across = np.linspace(-0.5, 0.5, 101)
     profiles = {h: [state.deflection(across)[0] for state in row] for h, row in states.items()}
 
-    figure = new_figure(PAGE, 2.95 * len(eta))
+    figure = new_figure(PAGE, 2.6 * len(eta))
     panels = figure.subplots(len(eta), 2, squeeze=False, width_ratios=[2.7, 1.0])
     for i, (h, (space, profile)) in enumerate(zip(eta, panels, strict=True)):
         _draw_space(space, states[h], x, colour)
@@ -71,7 +71,15 @@ def fig11(
         for k, (growth, values) in enumerate(zip(x, profiles[h], strict=True)):
             profile.plot(across, values, color=COLOURS[k % len(COLOURS)], label=f"{growth:g}")
         profile.set(xlabel="$X_2/a$", ylabel="$u_1/a$", xlim=(-0.5, 0.5), xticks=[-0.5, 0.0, 0.5])
-        profile.legend(title=r"$\xi/\eta^2$", title_fontsize=7, loc="lower center", handlelength=1.2)
+        profile.legend(
+            title=r"$\xi/\eta^2$",
+            title_fontsize=7,
+            loc="upper center",
+            bbox_to_anchor=(0.5, -0.25),
+            ncols=3,
+            columnspacing=1.0,
+            handlelength=1.0,
+        )
     bar = figure.colorbar(colour, ax=panels[:, 0], location="bottom", shrink=0.5, aspect=35, pad=0.02)
     bar.set_label("deflection $u_1/a$")
     return Drawing(

@@ -63,13 +63,13 @@ def fig12(eta: float = 0.12, omega: Numbers = (0.1, 0.2, 0.3), highest: float = 
     widest = 1.25 * max(edges.chirality_of(highest), omega[-1])
     diagram = phases_over((-widest, widest), (0.0, highest))
 
-    figure = new_figure(PAGE, 3.7)
+    figure = new_figure(PAGE, 3.4)
     left, right = figure.subplots(1, 2)
     _draw_loci(left, thickness, loci)
     left.set(xlim=(0.0, 1.02 * eta), ylim=(0.0, None), title="(a)  over thickness")
     draw_phases(right, diagram)
     _draw_scaled(right, thickness, loci, widest, highest)
-    figure.legend(handles=_legend(omega), loc="outside upper center", ncols=4)
+    figure.legend(handles=_legend(omega), loc="outside upper center", ncols=3)
     return Drawing("fig12", figure, _caption(), _tables(thickness, loci, scaled_boundaries(diagram)))
 
 
@@ -130,7 +130,7 @@ def _draw_scaled(
         ("helical", 0.25, 0.9 * highest),
         ("helical", -0.55, 0.9 * highest),
     ):
-        style: dict[str, Any] = {"color": PHASES[name], "fontsize": 9, "fontweight": "bold", "va": "center"}
+        style: dict[str, Any] = {"color": PHASES[name], "fontsize": 7.5, "fontweight": "bold", "va": "center"}
         axes.text(across * widest, up, name, **style)
     axes.set(
         xlim=(-widest, widest),

@@ -40,7 +40,7 @@ def fig3(eta: float = 0.05, xi: float = 0.3, length: float = 5.0) -> Drawing:
     """
     eta, (xi,), length = ratio("eta", eta), growths("xi", [xi]), positive("length", length)
     states = [shape(reading, eta, xi, length) for reading in READINGS]
-    figure = new_figure(PAGE, 2.1)
+    figure = new_figure(PAGE, 1.7)
     left, right = figure.subplots(1, 2, width_ratios=[1.0, 3.2])
     height = np.linspace(-0.5, 0.5, 11)
     growth = xi * eta * height
@@ -82,5 +82,6 @@ def _draw_gradient(axes: Axes, height: Array, growth: Array) -> None:
         axes.annotate("", (reach, level), (0.0, level), arrowprops=arrow)
     axes.plot(growth, height, color=COLOURS[1])
     axes.axvline(0.0, color=INK, linewidth=0.7)
+    axes.set_xticks([growth[0], 0.0, growth[-1]], [f"{g:g}" for g in (growth[0], 0.0, growth[-1])])
     axes.set(xlabel="growth $g_{33}$", ylabel="$X_1/h$", title="(a)", ylim=(-0.56, 0.56))
     axes.set_yticks([-0.5, 0.0, 0.5])

@@ -44,7 +44,7 @@ def fig4(eta: float = 0.05, xi: Numbers = (0.1, 0.2, 0.3)) -> Drawing:
     """
     eta, xi = ratio("eta", eta), growths("xi", xi)
     most = max(map(abs, xi)) or eta
-    figure = new_figure(PAGE, 2.7)
+    figure = new_figure(PAGE, 2.5)
     parts = figure.subplot_mosaic(
         [["a", "b"], ["a", "c"]], width_ratios=[1.35, 1.0], height_ratios=[1.5, 1.0]
     )
@@ -97,7 +97,7 @@ def _draw_energies(axes: Axes, eta: float, xi: tuple[float, ...], K2: Array) -> 
     axes.plot([], [], "-o", color=INK, label="consistent")
     axes.ticklabel_format(axis="y", scilimits=(0, 0), useMathText=True)
     axes.set(xlabel="$K_2$", ylabel=r"energy $\Pi$", title="(a)", xlim=(K2[0], K2[-1]))
-    axes.legend(loc="upper center")
+    axes.legend(loc="upper center", handlelength=1.5, labelspacing=0.3)
     return columns
 
 

@@ -45,13 +45,13 @@ def fig5(eta: Numbers = (0.05, 0.1), xi: Numbers = (0.0, 0.1, 0.2, 0.3), length:
     eta, xi, length = ratios("eta", eta), growths("xi", xi), positive("length", length)
     states = {h: [[shape(reading, h, g, length) for g in xi] for reading in READINGS] for h in eta}
     colour = deflection_scale([state for rows in states.values() for row in rows for state in row])
-    figure = new_figure(PAGE, 3.0 * len(eta))
+    figure = new_figure(PAGE, 2.4 * len(eta))
     panels = figure.subplots(len(eta), 2, squeeze=False, width_ratios=[2.7, 1.0])
     x = np.linspace(-0.5, 0.5, 101)
     tables: dict[str, dict[str, list[float]]] = {}
     for i, (h, (space, across)) in enumerate(zip(eta, panels, strict=True)):
         _draw_space(space, states[h], xi, colour)
-        space.set_title(rf"({chr(97 + i)})  $\eta$ = {h:g}")
+        space.set_title(rf"({chr(97 + i)})  $\eta$ = {h:g}", pad=11)
         profiles = {
             reading: [state.deflection(x)[0] for state in row]
             for reading, row in zip(READINGS, states[h], strict=True)
@@ -87,7 +87,7 @@ def _draw_space(axes: Axes, rows: list[list[State]], xi: tuple[float, ...], colo
     for reading, box in zip(READINGS, boxes[:, 0], strict=True):
         axes.text(box[0] - 0.5, box[3], reading, ha="left", va="top", fontsize=7)
     for g, box in zip(xi, boxes[0], strict=True):
-        axes.text((box[0] + box[2]) / 2, box[3] + 0.25, rf"$\xi$ = {g:g}", ha="center", fontsize=7)
+        axes.text((box[0] + box[2]) / 2, box[3] + 0.7, rf"$\xi$ = {g:g}", ha="center", fontsize=7)
 
 
 def _draw_profiles(axes: Axes, x: Array, profiles: dict[str, list[Array]], xi: tuple[float, ...]) -> None:

@@ -86,7 +86,7 @@ def fig8(eta: float = 0.05, xi: Numbers = (0.01, 0.02, 0.03, 0.04)) -> Drawing:
 
 
 def _draw(name: str, caption: str, cases: Cases) -> Drawing:
-    figure = new_figure(PAGE, 3.0)
+    figure = new_figure(PAGE, 2.9)
     K3 = BEYOND * max(Plane(h, g, "eps0").reach for _, h, g in cases) * np.linspace(-1.0, 1.0, 241)
     tables: dict[str, dict[str, list[Any]]] = {}
     panels = figure.subplots(1, 2)
@@ -133,5 +133,5 @@ def _draw_legend(figure: Figure, axes: Axes) -> None:
     marks = [Line2D([], [], linestyle="none", label=kind, **mark) for kind, mark in MARKS.items()]
     lines = axes.get_legend_handles_labels()[0]
     figure.legend(
-        handles=[*lines, *marks], loc="outside lower center", ncols=8, columnspacing=1.3, handlelength=1.4
+        handles=[*lines, *marks], loc="outside lower center", ncols=4, columnspacing=1.3, handlelength=1.4
     )

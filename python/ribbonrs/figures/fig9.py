@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from ..arrays import Array
 from ..check import Numbers, positive
@@ -63,8 +64,9 @@ def fig9(eta: Numbers = (0.04, 0.06, 0.08, 0.1), xi: float = 0.1) -> Drawing:
             if bend < min(twist, xi):
                 axes.plot(bend, 0.0, color=colour, clip_on=False, zorder=3, **BENDING)
         axes.set(xlabel=r"edge growth $\xi$", title=f"({letter})  {told}", xlim=(0.0, xi))
+        axes.locator_params(axis="x", nbins=3)
     panels[0].set_ylabel("twist $K_3$")
-    _draw_legend(panels[0], eta)
+    _draw_legend(figure, panels[0], eta)
     caption = (
         "Fig. 9. Twist K3 (or -K3) over edge growth g33 = xi (2 X2/a)^2 for several eta, K1 = K2 = 0, by the "
         "full law; its expansion to second order in K2, eq. (59) of Liu, Li & Liu, is the same there. Dots: "
@@ -109,10 +111,10 @@ def _draw_twist(
     return {"xi": xi.tolist(), "K3": K3.tolist(), "kind": kinds}
 
 
-def _draw_legend(axes: Axes, eta: tuple[float, ...]) -> None:
+def _draw_legend(figure: Figure, axes: Axes, eta: tuple[float, ...]) -> None:
     for i, h in enumerate(eta):
         axes.plot([], [], color=COLOURS[(i + 1) % len(COLOURS)], label=rf"$\eta$ = {h:g}")
     axes.plot([], [], ".", color=INK, markersize=3.0, label="closed form")
     axes.plot([], [], color=INK, label="twist begins", **THRESHOLD)
     axes.plot([], [], color=INK, label="flat bends", **BENDING)
-    axes.legend(loc="upper left", ncols=2, fontsize=6.5)
+    figure.legend(handles=axes.get_legend_handles_labels()[0], loc="outside lower center", ncols=4)

@@ -197,7 +197,7 @@ def _met(series: Array, a: float, b: float, checks: Array, size: float) -> tuple
         return None
     # What is no larger than the last coefficients is rounding, if the series is as good without it.
     last = float(np.max(np.abs(series[-(series.size // 8) :])))
-    for noise in (max(2.0 * EPS * size, last), 0.5 * EPS * size):
+    for noise in (max(4.0 * EPS * size, last), 2.0 * EPS * size, 0.5 * EPS * size):
         kept = np.flatnonzero(np.abs(series) > noise)
         short = series[: kept[-1] + 1] if kept.size else np.zeros(1)
         if float(np.max(np.abs(legval(xi, short) - checks))) <= 2.0 * max(EPS * size, error):

@@ -6,7 +6,7 @@ import pickle
 import numpy as np
 import pytest
 import ribbonrs as rb
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from numpy.polynomial.polynomial import polyval
 from refusal import refuses
@@ -169,6 +169,7 @@ def test_fast_functions_are_met_to_the_rounding_of_s():
 
 
 @given(st.lists(st.floats(-1.0, 1.0), min_size=1, max_size=8), st.floats(0.1, 1e6))
+@example([0.0, 0.75, 0.0, 0.0, 1.0], 1.01953125)
 def test_polynomials_are_one_short_piece(c, length):
     pieces = adapted("growth.edge", lambda S: polyval(S / length, c) + 0.0 * S, length)
     assert pieces.domain == (0.0, length)

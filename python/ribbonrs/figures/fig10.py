@@ -20,7 +20,7 @@ from ..state import State
 from . import edges
 from .drawing import Drawing
 from .given import ratio
-from .style import INK, PAGE, PHASES, new_figure, styled
+from .style import INK, PHASES, WIDTH, new_figure, styled
 
 __all__ = ["fig10"]
 
@@ -75,7 +75,7 @@ def fig10(
     along = [solve(edges.grown(eta, x, omega), method="collocation") for x in places]
     closed = _eq64(eta, perfect.span[1])
 
-    figure = new_figure(PAGE, 5.6)
+    figure = new_figure(WIDTH, 5.6)
     axes = figure.subplots(3, 2)
     for row, (diagram, prime) in enumerate(((perfect, ""), (unfolded, "$'$"))):
         told = rf"$\omega$ = {omega:g}" if prime else "no chirality"

@@ -16,7 +16,7 @@ from . import edges
 from .drawing import Drawing
 from .given import ratios
 from .shapes import deflection_scale, draw_grid, view
-from .style import COLOURS, INK, PAGE, PHASES, new_figure, styled
+from .style import COLOURS, INK, PHASES, WIDTH, new_figure, styled
 
 __all__ = ["fig11"]
 
@@ -63,7 +63,7 @@ def fig11(
     across = np.linspace(-0.5, 0.5, 101)
     profiles = {h: [state.deflection(across)[0] for state in row] for h, row in states.items()}
 
-    figure = new_figure(PAGE, 2.6 * len(eta))
+    figure = new_figure(WIDTH, 2.6 * len(eta))
     panels = figure.subplots(len(eta), 2, squeeze=False, width_ratios=[2.7, 1.0])
     for i, (h, (space, profile)) in enumerate(zip(eta, panels, strict=True)):
         _draw_space(space, states[h], x, colour)

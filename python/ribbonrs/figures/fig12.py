@@ -15,7 +15,7 @@ from . import edges
 from .drawing import Drawing
 from .given import ratio
 from .phase_map import draw_phases, phases_over, scaled_boundaries
-from .style import INK, PAGE, PHASES, new_figure, styled
+from .style import INK, PHASES, WIDTH, new_figure, styled
 
 __all__ = ["fig12"]
 
@@ -63,7 +63,7 @@ def fig12(eta: float = 0.12, omega: Numbers = (0.1, 0.2, 0.3), highest: float = 
     widest = 1.25 * max(edges.chirality_of(highest), omega[-1])
     diagram = phases_over((-widest, widest), (0.0, highest))
 
-    figure = new_figure(PAGE, 3.4)
+    figure = new_figure(WIDTH, 3.4)
     left, right = figure.subplots(1, 2)
     _draw_loci(left, thickness, loci)
     left.set(xlim=(0.0, 1.02 * eta), ylim=(0.0, None), title="(a)  over thickness")

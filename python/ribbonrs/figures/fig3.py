@@ -11,7 +11,7 @@ from .drawing import Drawing
 from .given import growths, ratio
 from .saddles import READINGS, shape
 from .shapes import deflection_scale, draw_grid, view
-from .style import COLOURS, INK, PAGE, new_figure, styled
+from .style import COLOURS, INK, WIDTH, new_figure, styled
 
 __all__ = ["fig3"]
 
@@ -40,7 +40,7 @@ def fig3(eta: float = 0.05, xi: float = 0.3, length: float = 5.0) -> Drawing:
     """
     eta, (xi,), length = ratio("eta", eta), growths("xi", [xi]), positive("length", length)
     states = [shape(reading, eta, xi, length) for reading in READINGS]
-    figure = new_figure(PAGE, 1.7)
+    figure = new_figure(WIDTH, 1.7)
     left, right = figure.subplots(1, 2, width_ratios=[1.0, 3.2])
     height = np.linspace(-0.5, 0.5, 11)
     growth = xi * eta * height

@@ -14,7 +14,7 @@ from ..law import SectionLaw
 from ..ribbon import Ribbon
 from .drawing import Drawing
 from .given import growths, ratio
-from .style import COLOURS, INK, PAGE, new_figure, styled
+from .style import COLOURS, INK, WIDTH, new_figure, styled
 
 __all__ = ["fig4"]
 
@@ -44,7 +44,7 @@ def fig4(eta: float = 0.05, xi: Numbers = (0.1, 0.2, 0.3)) -> Drawing:
     """
     eta, xi = ratio("eta", eta), growths("xi", xi)
     most = max(map(abs, xi)) or eta
-    figure = new_figure(PAGE, 2.5)
+    figure = new_figure(WIDTH, 2.5)
     parts = figure.subplot_mosaic(
         [["a", "b"], ["a", "c"]], width_ratios=[1.35, 1.0], height_ratios=[1.5, 1.0]
     )

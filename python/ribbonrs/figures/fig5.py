@@ -13,7 +13,7 @@ from .drawing import Drawing
 from .given import growths, ratios
 from .saddles import READINGS, shape
 from .shapes import deflection_scale, draw_grid, view
-from .style import COLOURS, INK, PAGE, new_figure, styled
+from .style import COLOURS, INK, WIDTH, new_figure, styled
 
 __all__ = ["fig5"]
 
@@ -45,7 +45,7 @@ def fig5(eta: Numbers = (0.05, 0.1), xi: Numbers = (0.0, 0.1, 0.2, 0.3), length:
     eta, xi, length = ratios("eta", eta), growths("xi", xi), positive("length", length)
     states = {h: [[shape(reading, h, g, length) for g in xi] for reading in READINGS] for h in eta}
     colour = deflection_scale([state for rows in states.values() for row in rows for state in row])
-    figure = new_figure(PAGE, 2.4 * len(eta))
+    figure = new_figure(WIDTH, 2.4 * len(eta))
     panels = figure.subplots(len(eta), 2, squeeze=False, width_ratios=[2.7, 1.0])
     x = np.linspace(-0.5, 0.5, 101)
     tables: dict[str, dict[str, list[float]]] = {}

@@ -18,7 +18,7 @@ from .drawing import Drawing
 from .extrema import CONDITIONS, MARKS, Extremum, Plane
 from .given import growths, ratio
 from .shapes import draw_shape, held_at
-from .style import PAGE, PHASES, new_figure, styled
+from .style import PHASES, WIDTH, new_figure, styled
 
 __all__ = ["fig6"]
 
@@ -53,7 +53,7 @@ def fig6(eta: float = 0.1, xi: float = 0.03, length: float = 10.0) -> Drawing:
     Source: Liu, Li & Liu, Fig. 6 and eqs. (57)-(59).
     """
     eta, (xi,), length = ratio("eta", eta), growths("xi", [xi]), positive("length", length)
-    figure = new_figure(PAGE, 4.2)
+    figure = new_figure(WIDTH, 4.2)
     solid: Any = {("b", "e"): {"projection": "3d"}}
     panels = figure.subplot_mosaic("abc;def", per_subplot_kw=solid)
     tables: dict[str, dict[str, list[Any]]] = {}

@@ -15,7 +15,7 @@ from ..check import Numbers
 from .drawing import Drawing
 from .extrema import CONDITIONS, MARKS, Plane
 from .given import growths, ratio, ratios
-from .style import COLOURS, INK, PAGE, new_figure, styled
+from .style import COLOURS, INK, WIDTH, new_figure, styled
 
 __all__ = ["fig7", "fig8"]
 
@@ -86,7 +86,7 @@ def fig8(eta: float = 0.05, xi: Numbers = (0.01, 0.02, 0.03, 0.04)) -> Drawing:
 
 
 def _draw(name: str, caption: str, cases: Cases) -> Drawing:
-    figure = new_figure(PAGE, 2.9)
+    figure = new_figure(WIDTH, 2.9)
     K3 = BEYOND * max(Plane(h, g, "eps0").reach for _, h, g in cases) * np.linspace(-1.0, 1.0, 241)
     tables: dict[str, dict[str, list[Any]]] = {}
     panels = figure.subplots(1, 2)

@@ -13,7 +13,7 @@ from ..check import Numbers, positive
 from .drawing import Drawing
 from .extrema import CONDITIONS, Plane
 from .given import ratios
-from .style import COLOURS, INK, PAGE, new_figure, styled
+from .style import COLOURS, INK, WIDTH, new_figure, styled
 
 __all__ = ["fig9"]
 
@@ -46,7 +46,7 @@ def fig9(eta: Numbers = (0.04, 0.06, 0.08, 0.1), xi: float = 0.1) -> Drawing:
     Source: Liu, Li & Liu, Fig. 9 and eq. (64).
     """
     eta, xi = ratios("eta", eta), positive("xi", xi)
-    figure = new_figure(PAGE, 2.9)
+    figure = new_figure(WIDTH, 2.9)
     tables: dict[str, dict[str, list[Any]]] = {}
     panels = figure.subplots(1, 2, sharey=True)
     for letter, axes, (condition, told) in zip("ab", panels, CONDITIONS.items(), strict=True):

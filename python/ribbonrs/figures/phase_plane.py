@@ -17,7 +17,7 @@ from .drawing import Drawing
 from .given import ratio
 from .phase_map import draw_phases, phases_over, scaled_boundaries
 from .shapes import draw_shape, view
-from .style import PAGE, PHASES, new_figure, styled
+from .style import PHASES, WIDTH, new_figure, styled
 
 __all__ = ["phase_plane"]
 
@@ -59,7 +59,7 @@ def phase_plane(
     states = [[solve(edges.grown(eta, growth, w)) for w in omega] for growth in x]
 
     wide, high = ((span[1] - span[0]) * size for span, size in zip(spans, unit, strict=True))
-    figure = new_figure(PAGE, 0.75 + 0.92 * PAGE * high / wide)
+    figure = new_figure(WIDTH, 0.75 + 0.92 * WIDTH * high / wide)
     axes = figure.subplots()
     draw_phases(axes, diagram, unit)
     for growth, row in zip(x, states, strict=True):

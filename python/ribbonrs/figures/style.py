@@ -11,10 +11,12 @@ from matplotlib import style
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-__all__ = ["COLOURS", "INK", "PAGE", "PHASES", "new_figure", "styled"]
+__all__ = ["COLOURS", "COLUMN", "INK", "PAGE", "PHASES", "WIDTH", "new_figure", "styled"]
 
-PAGE = 5.0
-"""Inches: the width of figures. Reduced to a column of 3.4 the text has still five points or more."""
+COLUMN, PAGE = 3.4, 7.0
+"""Inches: the widths of a column and of a page."""
+WIDTH = 5.0
+"""Of the figures of the paper: reduced to a column their text has still five points."""
 INK = "0.2"
 # Okabe & Ito (2008): told apart by colour-blind eyes.
 COLOURS = ("#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")

@@ -347,7 +347,8 @@ fn passes_by<E: Equations>(points: &[PointOf<E>], place: f64, limits: &Limits) -
         Some((point.s, here.sign * (here.log - first.log).exp()))
     };
     let values: Option<Vec<_>> = points.iter().map(value).collect();
-    values.is_some_and(|values| {
+    // Two at least make a root.
+    values.filter(|values| values.len() > 1).is_some_and(|values| {
         let beside = (root(&values).0 - place).abs();
         beside.is_nan() || beside > 2.0 * limits.tolerance.cbrt()
     })

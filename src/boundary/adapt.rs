@@ -3,13 +3,13 @@
 //! Two half steps from a node, less the whole one, are the defect of an element but for terms of higher order; what
 //! the factorised equations make of all defects is the global error, with its sign, at every node.
 
-use super::ends::half_angle;
+use super::ends::{At, half_angle};
 use super::gauss::Gauss;
 use super::iterate::{Correction, Iterate, strain_size};
 use super::mesh::Mesh;
 use super::problem::Problem;
 use super::step::Stepper;
-use super::system::System;
+use super::system::{System, Targets};
 use crate::InvalidInput;
 use crate::section::Strain;
 
@@ -36,6 +36,12 @@ pub struct Defects {
 }
 
 impl Defects {
+    /// Counts what an element misses as nothing.
+    pub fn leave_out(&mut self, element: usize) {
+        self.gaps[element] = [0.0; 9];
+        self.sizes[element] = 0.0;
+    }
+
     /// The estimate, from what the equations make of the gaps.
     #[must_use]
     pub fn estimate(self, correction: &Correction, problem: &Problem) -> Estimate {
@@ -47,11 +53,11 @@ impl Defects {
     }
 }
 
-/// The defects of `x`, with the law violated by `offset` at the stages.
+/// The defects of `x` as a solution for these targets.
 ///
 /// # Errors
 /// Where a section is refused.
-pub fn defects(system: &System, x: &Iterate, offset: &[Strain]) -> Result<Defects, InvalidInput> {
+pub fn defects(system: &System, x: &Iterate, targets: &Targets) -> Result<Defects, InvalidInput> {
     let mesh = &system.mesh;
     let mut stepper = Stepper::new(&mesh.problem, mesh.gauss)?;
     let degree = mesh.gauss.degree;
@@ -63,12 +69,12 @@ pub fn defects(system: &System, x: &Iterate, offset: &[Strain]) -> Result<Defect
         let (at, s, h) = (&x.nodes[i], mesh.nodes[i], mesh.length(i));
         let strain = |c: f64| x.strain(mesh, i, c);
         let (whole, _) = stepper.step(at, s, h, strain, false)?;
-        if let Some(known) = offset.get(i * degree..(i + 1) * degree) {
-            stepper.offset_by(halves(mesh.gauss, known, 0.0));
+        if let Some(known) = targets.offset.get(i * degree..(i + 1) * degree) {
+            stepper.offset_by(halves(mesh.gauss, known, 0.0), targets.drag);
         }
         let (middle, first) = stepper.step(at, s, 0.5 * h, |c| strain(0.5 * c), true)?;
-        if let Some(known) = offset.get(i * degree..(i + 1) * degree) {
-            stepper.offset_by(halves(mesh.gauss, known, 0.5));
+        if let Some(known) = targets.offset.get(i * degree..(i + 1) * degree) {
+            stepper.offset_by(halves(mesh.gauss, known, 0.5), targets.drag);
         }
         let (end, second) = stepper.step(&middle, s + 0.5 * h, 0.5 * h, |c| strain(0.5 + 0.5 * c), true)?;
         let mut gap = [0.0; 9];
@@ -89,12 +95,12 @@ pub fn defects(system: &System, x: &Iterate, offset: &[Strain]) -> Result<Defect
     Ok(Defects { gaps, sizes, rates })
 }
 
-/// Estimates the error of `x`, at which `system` was linearised, with the law violated by `offset` at the stages.
+/// Estimates the error of `x`, at which `system` was linearised, as a solution for these targets.
 ///
 /// # Errors
 /// Where a section is refused.
-pub fn estimate(system: &mut System, x: &Iterate, offset: &[Strain]) -> Result<Estimate, InvalidInput> {
-    let defects = defects(system, x, offset)?;
+pub fn estimate(system: &mut System, x: &Iterate, targets: &Targets) -> Result<Estimate, InvalidInput> {
+    let defects = defects(system, x, targets)?;
     let correction = system.correction_for(defects.gaps.clone());
     Ok(defects.estimate(&correction, &system.mesh.problem))
 }
@@ -183,6 +189,18 @@ pub fn refined(mesh: &Mesh, estimate: &Estimate, tolerance: f64) -> Vec<f64> {
 /// # Errors
 /// Where a section is refused.
 pub fn transferred(x: &Iterate, from: &Mesh, to: &Mesh) -> Result<Iterate, InvalidInput> {
+    Ok(Iterate {
+        strains: transferred_strains(&x.strains, from, to),
+        nodes: placed_states(x, from, to)?,
+        slack: Default::default(),
+    })
+}
+
+/// The states at the nodes of another mesh.
+///
+/// # Errors
+/// Where a section is refused.
+pub fn placed_states(x: &Iterate, from: &Mesh, to: &Mesh) -> Result<Vec<At>, InvalidInput> {
     let mut stepper = Stepper::new(&from.problem, from.gauss)?;
     let mut nodes = Vec::with_capacity(to.nodes.len());
     for &s in &to.nodes {
@@ -195,7 +213,7 @@ pub fn transferred(x: &Iterate, from: &Mesh, to: &Mesh) -> Result<Iterate, Inval
             None => stepper.step(&x.nodes[i], start, part, |c| x.strain(from, i, c * part / h), false)?.0,
         });
     }
-    Ok(Iterate { strains: transferred_strains(&x.strains, from, to), nodes, slack: Default::default() })
+    Ok(nodes)
 }
 
 /// Strains at the stages of another mesh, by the polynomials through those of the first.

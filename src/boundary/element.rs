@@ -10,7 +10,7 @@
 //! n_j   = (d3.N, d1.M, d2.M, d3.M)_j
 //! ```
 //!
-//! and the strains `e_j` are what the law asks for, `value(e_j) - compliance n_j - offset_j = 0`. The orientations are linear
+//! and the strains `e_j` are what the law asks for, `value(e_j) + drag e_j - compliance n_j - offset_j = 0`, drag and offset zero but on the way to a solution. The orientations are linear
 //! in `q` at given strains: an `s x s` system over the quaternions. So only the `4 s` strains are unknowns, and
 //! since a rigid motion of all changes nothing, they depend on the start through the wrench alone (and the
 //! direction of distributed loads). The Jacobian of the strains, by 4 x 4 blocks of stages,
@@ -59,6 +59,8 @@ pub struct Span<'a> {
     pub responses: &'a [Response],
     /// Strains by which the law is violated on purpose, on the way to a solution; none if empty.
     pub offset: &'a [Strain],
+    /// Viscosity: what the law asks for beside, per unit strain.
+    pub drag: f64,
     /// Distributed force and couple at the stages; none if empty.
     pub load: &'a [(Vector, Vector)],
 }
@@ -218,6 +220,10 @@ impl Stages {
             self.residual[j] = value - response.compliance.component_mul(&self.resultants[j]);
             if let Some(offset) = span.offset.get(j) {
                 self.residual[j] -= offset;
+            }
+            if span.drag != 0.0 {
+                self.residual[j] += span.drag * strains[j];
+                self.tangent[j] += Matrix4::from_diagonal_element(span.drag);
             }
         }
         exit

@@ -29,7 +29,7 @@ pub struct Path {
     pub x: Iterate,
     base: [End; 2],
     load: f64,
-    offset: Vec<Strain>,
+    pub(super) offset: Vec<Strain>,
     /// Whether twist is wound up on the way; a guess has it already.
     winds: bool,
 }
@@ -117,7 +117,7 @@ const FOLD_STEP: f64 = 1e-3;
 /// The longest step along the way, in the norm of the unknowns.
 const LONGEST_STEP: f64 = 2.0;
 /// Error of the mesh that is too large on a careful way.
-const LARGEST_ERROR: f64 = 1e-2;
+pub const LARGEST_ERROR: f64 = 1e-2;
 /// Radians that a section turns at most in one step: more may be another solution.
 pub const LARGEST_STEP_TURN: f64 = 2.0;
 /// The least step of `t`.
@@ -172,7 +172,7 @@ impl Path {
             }
         };
         let offset = if t < 1.0 { self.offset.iter().map(|e| e * (1.0 - t)).collect() } else { Vec::new() };
-        Targets { ends: [toward(0), toward(1)], load: self.load + t * (1.0 - self.load), offset }
+        Targets { ends: [toward(0), toward(1)], load: self.load + t * (1.0 - self.load), offset, drag: 0.0 }
     }
 
     /// Goes on from what was reached, as far as the mesh will do.
@@ -219,7 +219,7 @@ impl Path {
                 reached.fraction = t;
                 reached.norms = ended.norms;
                 if stride.careful {
-                    let estimate = estimate(system, &reached.x, &targets.offset)?;
+                    let estimate = estimate(system, &reached.x, &targets)?;
                     if estimate.error > LARGEST_ERROR {
                         stride.again = true;
                         return Ok(Stop::Coarse(estimate));
@@ -303,13 +303,18 @@ pub struct Stride {
     pub again: bool,
     /// Asked before each step whether to stop.
     pub interrupted: Option<fn() -> bool>,
+    /// Viscosity of the next step, if the ribbon is to creep.
+    pub drag: Option<f64>,
+    /// How often kinks were moved.
+    pub rounds: usize,
 }
 
 /// Why the way is not gone on.
-#[derive(Clone, Debug)]
 pub enum Stop {
     /// The goal is reached.
     There,
+    /// Strains jump within elements: the problem and its mesh with these kinks, and the iterate there.
+    Kinked(Box<(Mesh, Iterate)>),
     /// The mesh is too coarse.
     Coarse(Estimate),
     /// It could not be; [`Reached::failure`] says why.

@@ -44,7 +44,7 @@ impl LineLoad {
 /// ```text
 /// N' + p = 0,   M' + r' x N + c = 0,   r' = (1 + eps) d3,   q' = q (0, K)/2,   n = dPi/de     eqs. (40), (60), (66), (67)
 /// ```
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Problem {
     /// The law of its sections.
     pub law: Arc<Law>,
@@ -56,6 +56,8 @@ pub struct Problem {
     pub points: Vec<PointLoad>,
     /// Load along the ribbon.
     pub line: LineLoad,
+    /// Where strains may jump though nothing that is given does: sections on both sides are in different phases.
+    pub kinks: Vec<f64>,
 }
 
 impl Problem {
@@ -101,7 +103,7 @@ impl Problem {
             }
         }
         points.sort_by(|a, b| a.s.total_cmp(&b.s));
-        let mut problem = Self { law: law.into(), length, ends, points, line };
+        let mut problem = Self { law: law.into(), length, ends, points, line, kinks: Vec::new() };
         for end in &mut problem.ends {
             end.rotation *= 1.0 / end.rotation.norm();
         }
@@ -171,7 +173,7 @@ impl Problem {
             Amplitude::Along(function) => Some(function.breaks()),
             Amplitude::Constant(_) => None,
         });
-        let inner = along.flatten().copied().chain(self.law.breaks());
+        let inner = along.flatten().copied().chain(self.law.breaks()).chain(self.kinks.iter().copied());
         breaks.extend(inner.filter(|&s| s > 0.0 && s < self.length));
         breaks.sort_by(f64::total_cmp);
         let loaded = |s: f64| self.points.iter().any(|point| point.s == s) || s == self.length;

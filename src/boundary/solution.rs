@@ -203,7 +203,7 @@ impl Solution {
         let mut system = System::new(mesh)?;
         // Where the equations are singular the error is not known.
         let error = match system.linearise(&x, &goal(&problem)) {
-            Ok(()) => estimate(&mut system, &x, &[])?.error,
+            Ok(()) => estimate(&mut system, &x, &goal(&problem))?.error,
             Err(_) => f64::INFINITY,
         };
         let condition = system.condition();

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::adapt::{estimate, refined, transferred};
 use super::check;
+use super::creep::FIRST_DRAG;
 use super::ends::Hold;
 use super::fallen::{fallen, is_unstable};
 use super::iterate::{Iterate, Layout};
@@ -71,16 +72,19 @@ struct Attempt {
     imperfection: f64,
     careful: bool,
     choice: usize,
+    creeps: bool,
 }
 
 /// What is tried in turn.
-const ATTEMPTS: [Attempt; 6] = [
-    Attempt { finer: 1, imperfection: 1.0, careful: false, choice: 0 },
-    Attempt { finer: 4, imperfection: 1.0, careful: true, choice: 0 },
-    Attempt { finer: 4, imperfection: 1.0, careful: true, choice: 1 },
-    Attempt { finer: 4, imperfection: -3.0, careful: true, choice: 0 },
-    Attempt { finer: 4, imperfection: 1.0, careful: true, choice: 2 },
-    Attempt { finer: 8, imperfection: 0.0, careful: true, choice: 0 },
+const ATTEMPTS: [Attempt; 8] = [
+    Attempt { finer: 1, imperfection: 1.0, careful: false, choice: 0, creeps: false },
+    Attempt { finer: 4, imperfection: 1.0, careful: true, choice: 0, creeps: false },
+    Attempt { finer: 4, imperfection: 1.0, careful: true, choice: 3, creeps: true },
+    Attempt { finer: 4, imperfection: 1.0, careful: true, choice: 4, creeps: true },
+    Attempt { finer: 4, imperfection: 1.0, careful: true, choice: 1, creeps: false },
+    Attempt { finer: 4, imperfection: -3.0, careful: true, choice: 0, creeps: false },
+    Attempt { finer: 4, imperfection: 1.0, careful: true, choice: 2, creeps: false },
+    Attempt { finer: 8, imperfection: 0.0, careful: true, choice: 0, creeps: false },
 ];
 
 impl Problem {
@@ -100,7 +104,11 @@ impl Problem {
                 _ => [Some(straight), Some(natural), None],
             }
         };
-        choices[choice]
+        match choice {
+            3 => Some(natural),
+            4 => Some(straight),
+            _ => choices[choice],
+        }
     }
 }
 
@@ -121,7 +129,10 @@ pub fn solve(
     let mut best: Option<Solved> = None;
     let mut spent = Spent::default();
     for attempt in ATTEMPTS {
-        spent.allowed = spent.work + MOST_WORK;
+        spent.allowed = (spent.work + MOST_WORK).min(MOST_WORK_OF_ALL);
+        if spent.work >= MOST_WORK_OF_ALL {
+            break;
+        }
         let known = match (guess, problem.known(attempt.choice, attempt.imperfection)) {
             (Some(guess), _) if attempt.choice == 0 => Known::Given(guess),
             (None, Some(known)) => known,
@@ -141,6 +152,8 @@ pub fn solve(
             careful: attempt.careful,
             again: false,
             interrupted: settings.interrupted,
+            drag: attempt.creeps.then_some(FIRST_DRAG),
+            rounds: 0,
         };
         let (mesh, reached) = followed(settings, mesh, &known, stride, &mut spent)?;
         let solved = if reached.failure.is_none() {
@@ -154,6 +167,7 @@ pub fn solve(
         } else {
             unfinished(mesh, reached, &spent)
         };
+        if std::env::var("CREEP").is_ok() { eprintln!("ATTEMPT finer {} choice {} creeps {}: {:?} {} work {} elements {}", attempt.finer, attempt.choice, attempt.creeps, solved.report.status, solved.report.reason, spent.work, solved.nodes.len()); }
         // A mesh that is given is not made finer.
         if !settings.adaptive || solved.report.status == Status::Interrupted {
             return Ok(solved);
@@ -175,7 +189,7 @@ pub fn solve(
 /// What is asked for in the end.
 #[must_use]
 pub fn goal(problem: &Problem) -> Targets {
-    Targets { ends: [0, 1].map(|i| problem.goal(&problem.ends[i])), load: 1.0, offset: Vec::new() }
+    Targets { ends: [0, 1].map(|i| problem.goal(&problem.ends[i])), load: 1.0, offset: Vec::new(), drag: 0.0 }
 }
 
 /// The way from the known shape, on meshes that follow it if asked.
@@ -190,14 +204,29 @@ pub fn followed(
     let mut reached = Reached::start(&path);
     loop {
         let mut system = new_system(mesh, settings)?;
-        let stop = path.follow(&mut system, &mut reached, &mut stride)?;
+        let stop = if stride.drag.is_some() {
+            let work = spent.allowed.saturating_sub(spent.work);
+            path.creep(&mut system, &mut reached, &mut stride, work)?
+        } else {
+            path.follow(&mut system, &mut reached, &mut stride)?
+        };
         spent.factorised(&system);
         spent.meshes += 1;
         mesh = system.mesh;
         match stop {
+            Stop::Kinked(kinked) if spent.work < spent.allowed => {
+                let (split, x) = *kinked;
+                reached.x = x;
+                path.transfer(&mesh, &split);
+                mesh = split;
+            }
             Stop::Coarse(estimate) if mesh.elements() < MOST_ON_THE_WAY && spent.work < spent.allowed => {
-                let finer =
-                    Mesh::new(&mesh.problem, refined(&mesh, &estimate, ERROR_ON_THE_WAY), settings.degree)?;
+                let nodes = refined(&mesh, &estimate, if stride.drag.is_some() { 10.0 } else { 1.0 } * ERROR_ON_THE_WAY);
+                if nodes.len() > MOST_ON_THE_WAY && stride.drag.is_some() {
+                    stride.careful = false;
+                    continue;
+                }
+                let finer = Mesh::new(&mesh.problem, nodes, settings.degree)?;
                 reached.x = transferred(&reached.x, &mesh, &finer)?;
                 path.transfer(&mesh, &finer);
                 mesh = finer;
@@ -211,8 +240,9 @@ pub fn followed(
     }
 }
 
-/// Factorised elements of an attempt that are too many: some five seconds.
-const MOST_WORK: usize = 1_000_000;
+/// Factorised elements of an attempt that are too many, and of all: some three and seven seconds.
+const MOST_WORK: usize = 500_000;
+const MOST_WORK_OF_ALL: usize = 1_200_000;
 /// Error that a mesh on a careful way is made for.
 const ERROR_ON_THE_WAY: f64 = 1e-3;
 /// Elements of a mesh on the way that are no longer refined.
@@ -317,7 +347,7 @@ pub fn adapted(
             return Ok(Solved { nodes: mesh.nodes, x, report });
         }
         x = ended.x;
-        let estimated = estimate(&mut system, &x, &[])?;
+        let estimated = estimate(&mut system, &x, &goal)?;
         let error = estimated.error;
         let condition = system.condition();
         mesh = system.mesh;

@@ -27,6 +27,7 @@ pub struct Stepper {
     uniform: Option<Response>,
     /// Offset of the law at the stages of the next steps, by fractions of an element; none if empty.
     offset: Vec<Strain>,
+    drag: f64,
 }
 
 /// Newton iterations of the stages; from the polynomial of an element two or three do.
@@ -46,13 +47,15 @@ impl Stepper {
             eliminated: Eliminated::default(),
             uniform,
             offset: Vec::new(),
+            drag: 0.0,
         })
     }
 
-    /// Violates the law by these strains at the stages of the next step.
-    pub fn offset_by(&mut self, offset: impl Iterator<Item = Strain>) {
+    /// Violates the law by these strains at the stages of the next step, with a viscosity.
+    pub fn offset_by(&mut self, offset: impl Iterator<Item = Strain>, drag: f64) {
         self.offset.clear();
         self.offset.extend(offset);
+        self.drag = drag;
     }
 
     /// From `at` over `length` from `s`, with strains that are solved for, starting from those of `guess` at the fractions
@@ -84,7 +87,7 @@ impl Stepper {
         } else {
             Vec::new()
         };
-        let span = Span { gauss, length, responses, offset: &self.offset, load: &load };
+        let span = Span { gauss, length, responses, offset: &self.offset, drag: self.drag, load: &load };
         let entry = Entry { rotation: at.rotation, force: at.force, moment: at.moment() };
         let mut strains = [Strain::zeros(); MAX_DEGREE];
         for (strain, &c) in strains.iter_mut().zip(&gauss.nodes) {

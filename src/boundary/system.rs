@@ -32,6 +32,8 @@ pub struct Targets {
     pub load: f64,
     /// By what the law is violated at each stage; empty at the goal.
     pub offset: Vec<Strain>,
+    /// Viscosity of the sections: `drag` times the strain is asked for beside the law.
+    pub drag: f64,
 }
 
 /// The equations on a mesh, with room for their factors.
@@ -308,6 +310,7 @@ impl System {
             length: mesh.length(i),
             responses,
             offset: targets.offset.get(stages.clone()).unwrap_or(&[]),
+            drag: targets.drag,
             load,
         };
         let entry = Entry { rotation: at.rotation, force: at.force, moment: at.moment() };

@@ -437,7 +437,7 @@ impl Held {
     /// What the elements of the mesh miss.
     fn defects(&self, x: &HeldState) -> Result<Option<Defects>, Failed> {
         let Some(system) = &self.system else { return Ok(None) };
-        Ok(Some(defects(system, &x.x, &[])?))
+        Ok(Some(defects(system, &x.x, &goal(&system.mesh.problem))?))
     }
 
     /// The change of state and parameter that these gaps stand for.

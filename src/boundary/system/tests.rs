@@ -105,7 +105,7 @@ fn the_sparse_matrix_gives_the_same() {
         let mut system = System::with_layout(mesh.clone(), layout).unwrap();
         let mut x = iterate(&mesh, &mut numbers);
         let ends = [0, 1].map(|i| problem.goal(&problem.ends[i]));
-        let targets = Targets { ends, load: 0.7, offset: Vec::new() };
+        let targets = Targets { ends, load: 0.7, offset: Vec::new(), drag: 0.0 };
         system.settle(&mut x, targets.load);
         system.linearise(&x, &targets).unwrap();
         let by_chain = system.correction();
@@ -144,6 +144,7 @@ fn the_jacobian_is_exact() {
                     ends: [0, 1].map(|i| problem.goal(&problem.ends[i])),
                     load: 0.7,
                     offset: vec![Strain::repeat(0.01); mesh.stages()],
+                    drag: 0.3,
                 };
                 system.settle(&mut x, targets.load);
                 system.linearise(&x, &targets).unwrap();

@@ -31,6 +31,14 @@ def direction(rng):
     return vector / np.linalg.norm(vector)
 
 
+def reachable_axis(rng):
+    """The direction of an axis through the straight ribbon's end that comes within 0.95 L of its start."""
+    while True:
+        axis = direction(rng)
+        if math.hypot(axis[0], axis[1]) <= 0.95:
+            return axis
+
+
 def rotation(rng):
     """A unit quaternion, uniform on all rotations."""
     quaternion = rng.normal(size=4)
@@ -66,7 +74,7 @@ def random_end(rng, kind, length, euler):
         case "pinned":
             return rb.Pinned(place)
         case _:
-            return rb.Sliding(direction(rng), rotation(rng), force=load)
+            return rb.Sliding(reachable_axis(rng), rotation(rng), force=load)
 
 
 def random_scene(seed):

@@ -159,7 +159,7 @@ fn a_stage_without_stiffness_is_solved_for() {
     let problem = Arc::new(Problem::new(law, 2.0, ends, vec![], LineLoad::uniform([0.0; 3])).unwrap());
     let mesh = Mesh::new(&problem, vec![0.0, 1.0, 2.0], 1).unwrap();
     let mut system = System::new(mesh.clone()).unwrap();
-    let targets = Targets { ends, load: 1.0, offset: Vec::new() };
+    let targets = Targets { ends, load: 1.0, offset: Vec::new(), drag: 0.0 };
     let x = Path::new(&mesh, &Known::Straight(0.0)).unwrap().x;
     // The straight ribbon is the solution.
     system.linearise(&x, &targets).unwrap();

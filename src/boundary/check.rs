@@ -30,7 +30,8 @@ pub fn residual(mesh: &Mesh, x: &Iterate) -> Result<f64, InvalidInput> {
         let (at, h, s) = (&x.nodes[i], mesh.length(i), mesh.gauss.degree);
         let mut made = Vec::new();
         let responses = mesh.responses(i, &mut made)?;
-        let span = Span { gauss: mesh.gauss, length: h, responses, offset: &[], drag: 0.0, load: mesh.load(i) };
+        let span =
+            Span { gauss: mesh.gauss, length: h, responses, offset: &[], drag: 0.0, load: mesh.load(i) };
         let entry = Entry { rotation: at.rotation, force: at.force, moment: at.moment() };
         let strains = &x.strains[i * s..(i + 1) * s];
         stages.evaluate(&span, &entry, strains);

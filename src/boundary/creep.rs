@@ -9,169 +9,292 @@
 //!
 //! stationary for the energy plus `drag/2 sum (e - e_before)^2/compliance`. If it is a minimum of that, which the index of
 //! the damped equations tells, the energy has become less. Ends and loads move to where they are to be meanwhile, and the drag fades
-//! as far as the steps allow: where an equilibrium ends at a fold, the ribbon creeps to another.
+//! as far as the steps allow: where an equilibrium ends at a fold, the ribbon creeps to another, and where sections become unstable
+//! they go over to another phase, one after the other, which leaves kinks.
 
-use std::sync::Arc;
-
-use super::adapt::defects;
+use super::adapt::{Estimate, defects, refined, transferred};
 use super::iterate::Iterate;
-use super::mesh::Mesh;
 use super::kinks::Phases;
-use super::newton::{Control, Failed, newton};
-use super::path::{LARGEST_ERROR, Path, Reached, Stop, Stride, largest_turn};
+use super::known::Known;
+use super::mesh::Mesh;
+use super::newton::{Control, Ended, Failed, newton};
+use super::path::{LARGEST_ERROR, Path, Reached, largest_turn};
+use super::solve::{Settings, Spent, new_system};
 use super::system::{System, Targets};
 use crate::InvalidInput;
 use crate::section::Strain;
 
 /// Drag of the first step, relative to the elasticity of the ungrown section.
-pub const FIRST_DRAG: f64 = 1.0;
+const FIRST_DRAG: f64 = 1.0;
+/// Drag so small that only slow motions are left: kinks are looked for then.
+const SMALL_DRAG: f64 = 1e-2;
 /// Drag that is as good as none: what is left is Newton's method.
 const LEAST_DRAG: f64 = 1e-8;
-/// Drag so small that nothing but slow motions are left.
-const SMALL_DRAG: f64 = 1e-2;
 /// Drag that nothing moves against.
 const LARGEST_DRAG: f64 = 1e5;
-/// How often kinks are moved.
-const MOST_ROUNDS: usize = 3;
+/// Drag above which steps of ends and loads, too, are made shorter.
+const STIFF_DRAG: f64 = 10.0;
+/// By how much a step that fails makes the drag larger, and one that is quick makes it smaller.
+const MORE: f64 = 4.0;
+const LESS: f64 = 0.3;
+/// Steps after a failure in which the drag does not become smaller.
+const REST: usize = 2;
+/// Newton iterations of a quick step.
+const QUICK: usize = 5;
+/// Radians that a section turns at most in one step, and by how much it stretches.
+const LARGEST_STEP_TURN: f64 = 1.5;
+const LARGEST_STRETCH: f64 = 0.02;
+/// The least step of ends and loads.
+const LEAST_STEP: f64 = 1e-7;
 /// Steps that are too many.
 const MOST_STEPS: usize = 1000;
-/// Radians that a section turns at most in one step.
-const LARGEST_STEP_TURN: f64 = 1.5;
+/// How often kinks are put elsewhere.
+const MOST_MOVES: usize = 3;
+/// Steps between looks at the error of the mesh.
+const LOOK: usize = 4;
+/// Error that a mesh is made for, and elements that are too many for that.
+const ERROR: f64 = 1e-2;
+const MOST_ELEMENTS: usize = 1000;
+/// Relative change of the strains of a ribbon at rest, and the size of a disturbance of one that is not stable there.
+const AT_REST: f64 = 1e-6;
+const KICK: f64 = 1e-2;
 
-impl Path {
-    /// What is asked for at `t` of a ribbon that was at `reached`.
-    fn viscous(&self, system: &System, reached: &Reached, t: f64, drag: f64) -> Targets {
-        let mut targets = self.targets(&system.mesh.problem, t);
-        if drag > 0.0 {
-            targets.offset.resize(reached.x.strains.len(), crate::section::Strain::zeros());
-            for (offset, strain) in targets.offset.iter_mut().zip(&reached.x.strains) {
-                *offset += drag * strain;
-            }
-        }
-        targets.drag = drag;
-        targets
-    }
+/// The pace of creeping.
+struct Pace {
+    drag: f64,
+    /// The next step of ends and loads, of the whole way, and the largest.
+    step: f64,
+    most: f64,
+    /// Steps that are still to be made before the drag becomes smaller.
+    rest: usize,
+    /// How often kinks may still be put elsewhere.
+    moves: usize,
+    /// Whether the mesh is made finer.
+    refines: bool,
+}
 
-    /// Creeps on from what was reached, as far as the mesh will do.
-    pub fn creep(
-        &mut self,
-        system: &mut System,
-        reached: &mut Reached,
-        stride: &mut Stride,
-        work: usize,
-    ) -> Result<Stop, InvalidInput> {
-        let problem = Arc::clone(&system.mesh.problem);
-        if self.offset.is_empty() {
-            let targets = self.targets(&problem, 0.0);
-            match system.evaluate(&reached.x, &targets) {
-                Ok(()) => self.offset.extend_from_slice(system.law_residual()),
-                Err(failure) => {
-                    reached.failure = Some(failure.into());
-                    return Ok(Stop::Failed);
-                }
-            }
+/// Why creeping pauses.
+enum Pause {
+    /// The ribbon is at rest at the goal, without drag.
+    There,
+    /// The mesh is too coarse.
+    Coarse(Estimate),
+    /// Kinks belong elsewhere: the mesh with elements that end there.
+    Kinked(Box<(Mesh, Iterate)>),
+    /// It does not go on; [`Reached::failure`] says why.
+    Failed,
+}
+
+/// Creeps from the known shape to a stable equilibrium on a mesh that follows it.
+///
+/// # Errors
+/// Where a section is refused.
+pub fn crept(
+    settings: &Settings,
+    mesh: Mesh,
+    known: &Known<'_>,
+    spent: &mut Spent,
+) -> Result<(Mesh, Reached), InvalidInput> {
+    let path = Path::new(&mesh, known)?;
+    let reached = Reached::start(&path);
+    let most = mesh.problem.largest_step(known);
+    crept_along(settings, mesh, path, reached, most, spent)
+}
+
+/// Creeps from an unstable equilibrium, disturbed, to a stable one.
+///
+/// # Errors
+/// Where a section is refused.
+pub fn crept_from(
+    settings: &Settings,
+    mesh: Mesh,
+    mut x: Iterate,
+    spent: &mut Spent,
+) -> Result<(Mesh, Reached), InvalidInput> {
+    kick(&mesh, &mut x)?;
+    let path = Path::at_goal(&mesh, x);
+    let reached = Reached { fraction: 1.0, ..Reached::start(&path) };
+    crept_along(settings, mesh, path, reached, 1.0, spent)
+}
+
+fn crept_along(
+    settings: &Settings,
+    mut mesh: Mesh,
+    mut path: Path,
+    mut reached: Reached,
+    most: f64,
+    spent: &mut Spent,
+) -> Result<(Mesh, Reached), InvalidInput> {
+    let step = most.min(0.5);
+    let mut pace = Pace { drag: FIRST_DRAG, step, most, rest: 0, moves: MOST_MOVES, refines: true };
+    loop {
+        let mut system = new_system(mesh, settings)?;
+        if let Err(failure) = path.begin(&mut system, &reached) {
+            reached.failure = Some(failure.into());
+            return Ok((system.mesh, reached));
         }
-        let control = Control { tolerance: 1e-6, iterations: 12, least_step: 1e-2 };
-        let mut rest = 0_usize;
-        let mut drag = stride.drag.unwrap_or(FIRST_DRAG);
-        loop {
-            if stride.interrupted.is_some_and(|asks| asks()) {
-                reached.failure = Some(Failed::Interrupted);
-                return Ok(Stop::Failed);
-            }
-            let t = (reached.fraction + stride.step).min(1.0);
-            let targets = self.viscous(system, reached, t, drag);
-            let ended = newton(system, reached.x.clone(), &targets, &control);
-            reached.steps += 1;
-            reached.iterations += ended.norms.len();
-            let turned = largest_turn(&reached.x, &ended.x);
-            let minimum = || {
-                let index = system.index_here(&ended.x, targets.load, &[]);
-                system.sections.index == 0 && index.is_none_or(|index| index == 0)
-            };
-            let failed = ended.failure.is_some();
-            let failure = ended.failure.clone().or_else(|| (turned > LARGEST_STEP_TURN || stretched(&reached.x, &ended.x) > 0.02 || !minimum()).then_some(Failed::Jumped));
-            if std::env::var("CREEP").is_ok() {
-                eprintln!("t {t:.4} drag {drag:.1e} turned {turned:.2e} it {} index {:?} sec {} el {} {:?}", ended.norms.len(), system.index_here(&ended.x, targets.load, &[]), system.sections.index, system.mesh.elements(), failure);
-            }
-            let Some(failure) = failure else {
-                let quick = ended.norms.len() <= 5;
-                reached.x = ended.x;
-                reached.fraction = t;
-                reached.norms = ended.norms;
-                let settled = t == 1.0 && drag < SMALL_DRAG && turned < 1e-2;
-                if settled {
-                    let phases = Phases::of(&system.mesh, &reached.x)?;
-                    let moves = !phases.kinks.is_empty() && stride.rounds < MOST_ROUNDS;
-                    let kinks = if moves { phases.moved()? } else { phases.kinks.clone() };
-                    if kinks.iter().any(|s| !problem.kinks.contains(s)) {
-                        if std::env::var("CREEP").is_ok() { eprintln!("kinks {:?} -> {kinks:?}", phases.kinks); }
-                        stride.rounds += 1;
-                        let split = phases.split(&reached.x, &kinks)?;
-                        stride.drag = Some(SMALL_DRAG);
-                        return Ok(Stop::Kinked(Box::new(split)));
-                    }
+        let pause = creep(&path, &mut system, &mut reached, &mut pace, settings, spent.left())?;
+        spent.factorised(&system);
+        spent.meshes += 1;
+        mesh = system.mesh;
+        let (finer, x) = match pause {
+            Pause::Kinked(split) => *split,
+            Pause::Coarse(estimate) => {
+                let nodes = refined(&mesh, &estimate, ERROR);
+                if nodes.len() > MOST_ELEMENTS {
+                    pace.refines = false;
+                    continue;
                 }
-                if stride.careful && (reached.steps % 4 == 0 || drag == 0.0 && t == 1.0) {
-                    let mut defects = defects(system, &reached.x, &targets)?;
-                    // No mesh resolves what jumps within an element.
-                    for s in Phases::of(&system.mesh, &reached.x)?.kinks {
-                        if system.mesh.nodes.binary_search_by(|node| node.total_cmp(&s)).is_err() {
-                            defects.leave_out(system.mesh.nodes.partition_point(|&node| node <= s) - 1);
-                        }
-                    }
-                    let correction = system.correction_for(defects.gaps.clone());
-                    let estimate = defects.estimate(&correction, &problem);
-                    if estimate.error > if settled { LARGEST_ERROR } else { 10.0 * LARGEST_ERROR } {
-                        stride.drag = Some(drag.max(1e-3));
-                        return Ok(Stop::Coarse(estimate));
-                    }
-                }
-                if drag == 0.0 && t == 1.0 {
-                    if let Ok(path) = std::env::var("DUMP") {
-                        let mut out = String::new();
-                        for (k, e) in reached.x.strains.iter().enumerate() {
-                            let d = system.mesh.gauss.degree;
-                            out += &format!("{} {} {} {} {} {}\n", k / d, system.mesh.places(k / d)[k % d], e[0], e[1], e[2], e[3]);
-                        }
-                        std::fs::write(path, out).unwrap();
-                    }
-                    return Ok(Stop::There);
-                }
-                rest = rest.saturating_sub(1);
-                if quick {
-                    stride.step = (2.0 * stride.step).min(stride.most);
-                }
-                if quick && rest == 0 {
-                    drag = if drag < LEAST_DRAG { 0.0 } else { 0.3 * drag };
-                }
-                continue;
-            };
-            if !failed && changed(&reached.x, &ended.x) < 1e-6 {
-                // At rest, but not at a minimum.
-                if std::env::var("CREEP").is_ok() { eprintln!("kick"); }
-                kick(&system.mesh, &mut reached.x)?;
+                let finer = Mesh::new(&mesh.problem, nodes, settings.degree)?;
+                let x = transferred(&reached.x, &mesh, &finer)?;
+                (finer, x)
             }
-            rest = 2;
-            let moves = reached.fraction < 1.0;
-            drag = (4.0 * drag).max(10.0 * LEAST_DRAG);
-            if moves && drag > 10.0 {
-                stride.step = 0.25 * (t - reached.fraction);
+            Pause::There | Pause::Failed => {
+                spent.went(&reached);
+                return Ok((mesh, reached));
             }
-            if moves {
-                drag = drag.min(LARGEST_DRAG);
-            }
-            if drag > LARGEST_DRAG || stride.step < 1e-7 || reached.steps >= MOST_STEPS || system.factorisations * system.mesh.elements() >= work {
-                reached.failure = Some(failure);
-                return Ok(Stop::Failed);
-            }
-        }
+        };
+        path.transfer(&mesh, &finer);
+        (mesh, reached.x) = (finer, x);
     }
 }
 
-/// Largest change of the axial strain.
-fn stretched(from: &Iterate, to: &Iterate) -> f64 {
-    from.strains.iter().zip(&to.strains).map(|(a, b)| (b[0] - a[0]).abs()).fold(0.0, f64::max)
+/// Creeps on from what was reached, as far as the mesh will do and no more than so much work.
+fn creep(
+    path: &Path,
+    system: &mut System,
+    reached: &mut Reached,
+    pace: &mut Pace,
+    settings: &Settings,
+    work: usize,
+) -> Result<Pause, InvalidInput> {
+    let control = Control { tolerance: 1e-6, iterations: 12, least_step: 1e-2 };
+    loop {
+        let t = (reached.fraction + pace.step).min(1.0);
+        let targets = viscous(path, system, reached, t, pace.drag);
+        let ended = newton(system, reached.x.clone(), &targets, &control);
+        reached.steps += 1;
+        reached.iterations += ended.norms.len();
+        if let Some(failure) = refused(system, &reached.x, &ended, &targets) {
+            let stays = ended.failure.is_none() && changed(&reached.x, &ended.x) < AT_REST;
+            if stays {
+                kick(&system.mesh, &mut reached.x)?;
+            }
+            let goes_on = pace.slower(t - reached.fraction)
+                && reached.steps < MOST_STEPS
+                && system.factorisations * system.mesh.elements() < work;
+            let stopped = settings.interrupted.is_some_and(|asks| asks());
+            if stopped || !goes_on {
+                reached.failure = Some(if stopped { Failed::Interrupted } else { failure });
+                return Ok(Pause::Failed);
+            }
+            continue;
+        }
+        let turned = largest_turn(&reached.x, &ended.x);
+        let iterations = ended.norms.len();
+        (reached.x, reached.fraction, reached.norms) = (ended.x, t, ended.norms);
+        let there = t == 1.0 && pace.drag == 0.0;
+        let slow = t == 1.0 && pace.drag < SMALL_DRAG && turned < SMALL_DRAG;
+        if slow && let Some(split) = pace.kinked(system, reached)? {
+            return Ok(Pause::Kinked(Box::new(split)));
+        }
+        if pace.refines && (reached.steps.is_multiple_of(LOOK) || there) {
+            let estimate = resolvable(system, &reached.x, &targets)?;
+            // While it moves the shape need not be more than roughly right.
+            if estimate.error > LARGEST_ERROR * if slow { 1.0 } else { 10.0 } {
+                pace.drag = pace.drag.max(0.1 * SMALL_DRAG);
+                return Ok(Pause::Coarse(estimate));
+            }
+        }
+        if there {
+            return Ok(Pause::There);
+        }
+        pace.faster(iterations);
+    }
+}
+
+/// What is asked for at `t` of a ribbon that was at `reached`.
+fn viscous(path: &Path, system: &System, reached: &Reached, t: f64, drag: f64) -> Targets {
+    let mut targets = path.targets(&system.mesh.problem, t);
+    if drag > 0.0 {
+        targets.offset.resize(reached.x.strains.len(), Strain::zeros());
+        for (offset, strain) in targets.offset.iter_mut().zip(&reached.x.strains) {
+            *offset += drag * strain;
+        }
+    }
+    Targets { drag, ..targets }
+}
+
+/// Why a step is not made, if it is not.
+fn refused(system: &System, from: &Iterate, ended: &Ended, targets: &Targets) -> Option<Failed> {
+    if let Some(failure) = &ended.failure {
+        return Some(failure.clone());
+    }
+    let stretch = |(a, b): (&Strain, &Strain)| (b[0] - a[0]).abs();
+    let stretched = from.strains.iter().zip(&ended.x.strains).map(stretch).fold(0.0, f64::max);
+    let far = largest_turn(from, &ended.x) > LARGEST_STEP_TURN || stretched > LARGEST_STRETCH;
+    let minimum = || {
+        system.sections.index == 0 && system.index_here(&ended.x, targets.load, &[]).is_none_or(|i| i == 0)
+    };
+    (far || !minimum()).then_some(Failed::Jumped)
+}
+
+/// The error of the mesh, but for elements within which strains jump: none resolves them.
+fn resolvable(system: &System, x: &Iterate, targets: &Targets) -> Result<Estimate, InvalidInput> {
+    let mesh = &system.mesh;
+    let mut defects = defects(system, x, targets)?;
+    for s in Phases::of(mesh, x)?.kinks {
+        let next = mesh.nodes.partition_point(|&node| node < s);
+        if mesh.nodes[next] != s {
+            defects.leave_out(next - 1);
+        }
+    }
+    let correction = system.correction_for(defects.gaps.clone());
+    Ok(defects.estimate(&correction, &mesh.problem))
+}
+
+impl Pace {
+    /// After a step of this length that failed; whether there is a slower pace.
+    fn slower(&mut self, step: f64) -> bool {
+        self.rest = REST;
+        self.drag = (MORE * self.drag).max(10.0 * LEAST_DRAG);
+        if step == 0.0 {
+            return self.drag <= LARGEST_DRAG;
+        }
+        if self.drag > STIFF_DRAG {
+            self.step = 0.25 * step;
+        }
+        self.drag = self.drag.min(LARGEST_DRAG);
+        self.step >= LEAST_STEP
+    }
+
+    /// After a step that took so many iterations.
+    fn faster(&mut self, iterations: usize) {
+        self.rest = self.rest.saturating_sub(1);
+        if iterations > QUICK {
+            return;
+        }
+        self.step = (2.0 * self.step).min(self.most);
+        if self.rest == 0 {
+            self.drag = if self.drag < LEAST_DRAG { 0.0 } else { LESS * self.drag };
+        }
+    }
+
+    /// The mesh and iterate with elements that end at kinks, if they do not yet.
+    fn kinked(
+        &mut self,
+        system: &System,
+        reached: &Reached,
+    ) -> Result<Option<(Mesh, Iterate)>, InvalidInput> {
+        let phases = Phases::of(&system.mesh, &reached.x)?;
+        let kinks = if self.moves > 0 { phases.moved()? } else { phases.kinks.clone() };
+        if kinks.iter().all(|s| system.mesh.problem.kinks.contains(s)) {
+            return Ok(None);
+        }
+        self.moves = self.moves.saturating_sub(1);
+        self.drag = SMALL_DRAG;
+        phases.split(&reached.x, &kinks).map(Some)
+    }
 }
 
 /// Largest change of a strain over the largest strain.
@@ -181,21 +304,20 @@ fn changed(from: &Iterate, to: &Iterate) -> f64 {
     change / to.strains.iter().copied().fold(f64::MIN_POSITIVE, largest)
 }
 
-/// Moves the strains a little in the softest direction of each section, and with a wave along the ribbon.
+/// Moves the strains a little in the softest direction of each section, by a wave along the ribbon that favours no symmetry; of a
+/// rod, whose sections have none, in bending and twist.
 fn kick(mesh: &Mesh, x: &mut Iterate) -> Result<(), InvalidInput> {
-    let size = KICK * x.strains.iter().map(|e| e.amax()).fold(0.0, f64::max);
+    let length = mesh.problem.length;
+    let size = KICK * x.strains.iter().map(|e| e.amax()).fold(1.0 / length, f64::max);
     let mut before: Option<Strain> = None;
     for (k, s) in (0..mesh.elements()).flat_map(|i| mesh.places(i)).enumerate() {
-        let Some(softest) = mesh.problem.law.at(s)?.neutral(&x.strains[k]) else { continue };
-        let mut softest = softest / softest.amax();
+        let softest = mesh.problem.law.at(s)?.neutral(&x.strains[k]);
+        let mut softest = softest.map_or(Strain::new(0.0, 0.0, 1.0, 0.5), |e| e / e.amax());
         if before.is_some_and(|before| before.dot(&softest) < 0.0) {
             softest = -softest;
         }
         before = Some(softest);
-        x.strains[k] += softest * (size * (1.0 + 0.5 * (3.0 * s / mesh.problem.length).cos()));
+        x.strains[k] += softest * (size * (1.0 + 0.5 * (3.0 * s / length).cos()));
     }
     Ok(())
 }
-
-/// Size of a kick over the largest strain.
-const KICK: f64 = 1e-2;

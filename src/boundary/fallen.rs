@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+use super::creep::crept_from;
 use super::iterate::Iterate;
 use super::known::{Guess, Known};
 use super::mesh::Mesh;
@@ -16,8 +17,8 @@ use super::system::System;
 use crate::InvalidInput;
 use crate::section::Strain;
 
-/// The stable state that an unstable one falls into when it is disturbed, if one of some disturbances leads to one;
-/// else the unstable one. All is to cost little.
+/// The stable state that an unstable one falls into when it is disturbed, if one of some disturbances leads to one, or that a viscous
+/// ribbon creeps to; else the unstable one. All is to cost little.
 pub fn fallen(
     problem: &Arc<Problem>,
     settings: &Settings,
@@ -35,7 +36,7 @@ pub fn fallen(
         let nodes = problem.first_nodes(settings.first_elements as f64, first_turn(problem, &known)?);
         let mesh = Mesh::new(problem, nodes, settings.degree)?;
         let stride =
-            Stride { step: 1.0, most: 1.0, careful: false, again: false, interrupted: settings.interrupted, drag: None, rounds: 0 };
+            Stride { step: 1.0, most: 1.0, careful: false, again: false, interrupted: settings.interrupted };
         let (mesh, reached) = followed(settings, mesh, &known, stride, spent)?;
         // Who asks to stop asks once.
         if reached.failure == Some(Failed::Interrupted) {
@@ -49,6 +50,19 @@ pub fn fallen(
             if solved.report.status.is_solved() && !is_unstable(problem, settings, &solved)? {
                 return Ok(solved);
             }
+        }
+    }
+    spent.allowed = spent.work + SOME_WORK;
+    let mesh = Mesh::new(problem, unstable.nodes.clone(), settings.degree)?;
+    let (mesh, reached) = crept_from(settings, mesh, unstable.x.clone(), spent)?;
+    if reached.failure == Some(Failed::Interrupted) {
+        return Ok(unfinished(mesh, reached, spent));
+    }
+    if reached.failure.is_none() {
+        let solved = adapted(settings, mesh, reached.x, spent)?;
+        let found = solved.report.status.is_solved() && !is_unstable(problem, settings, &solved)?;
+        if found || solved.report.status == Status::Interrupted {
+            return Ok(solved);
         }
     }
     Ok(unstable)
@@ -141,5 +155,7 @@ pub fn is_unstable(
     Ok(index.is_some_and(|index| index > 0))
 }
 
+/// Factorised elements of creeping that are too many.
+const SOME_WORK: usize = 100_000;
 /// Factorised elements of a disturbance that are too many.
 const LITTLE_WORK: usize = 4_000;

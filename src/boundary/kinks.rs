@@ -35,9 +35,13 @@ impl<'m> Phases<'m> {
         let degree = mesh.gauss.degree;
         let places: Vec<f64> = (0..mesh.elements()).flat_map(|i| mesh.places(i)).collect();
         let given = mesh.problem.law.breaks();
+        let least = LEAST_JUMP * x.strains.iter().map(|e| e.amax()).fold(0.0, f64::max);
         let (mut ends, mut kinks) = (Vec::new(), Vec::new());
         for (k, pair) in x.strains.windows(2).enumerate() {
-            let node = ((k + 1) % degree == 0).then(|| mesh.nodes[(k + 1) / degree]);
+            if (pair[1] - pair[0]).amax() <= least {
+                continue;
+            }
+            let node = (k + 1).is_multiple_of(degree).then(|| mesh.nodes[(k + 1) / degree]);
             // Where the growth jumps, strains do so anyway.
             if node.is_some_and(|s| given.contains(&s)) || !differ(&mesh.problem.law.at(places[k])?, pair) {
                 continue;
@@ -130,6 +134,8 @@ impl<'m> Phases<'m> {
     }
 }
 
+/// Change of the strains from a stage to the next that is none, over the largest strain.
+const LEAST_JUMP: f64 = 1e-3;
 /// Radians that a kink turns the ribbon by at most when it is moved.
 const LARGEST_MOVE: f64 = 0.2;
 /// What a law may miss of the resultants, of its strain.

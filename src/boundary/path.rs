@@ -17,7 +17,7 @@ use super::known::{Known, slerp};
 use super::mesh::Mesh;
 use super::newton::{Control, Failed, newton};
 use super::problem::{Problem, turned};
-use super::system::{System, Targets};
+use super::system::{Failure, System, Targets};
 use crate::InvalidInput;
 use crate::section::Strain;
 
@@ -29,7 +29,7 @@ pub struct Path {
     pub x: Iterate,
     base: [End; 2],
     load: f64,
-    pub(super) offset: Vec<Strain>,
+    offset: Vec<Strain>,
     /// Whether twist is wound up on the way; a guess has it already.
     winds: bool,
 }
@@ -149,6 +149,24 @@ impl Path {
         Ok(path)
     }
 
+    /// The way that is at its goal already, with a shape near one that is asked for.
+    #[must_use]
+    pub fn at_goal(mesh: &Mesh, x: Iterate) -> Self {
+        Self { x, base: mesh.problem.ends, load: 1.0, offset: Vec::new(), winds: false }
+    }
+
+    /// Takes note of what the known shape, that was reached as yet, misses the law by, which fades on the way.
+    ///
+    /// # Errors
+    /// A residual that is not finite, a section that is refused.
+    pub fn begin(&mut self, system: &mut System, reached: &Reached) -> Result<(), Failure> {
+        if self.offset.is_empty() && reached.fraction < 1.0 {
+            system.evaluate(&reached.x, &self.targets(&system.mesh.problem, 0.0))?;
+            self.offset.extend_from_slice(system.law_residual());
+        }
+        Ok(())
+    }
+
     /// What is asked for at `t`.
     #[must_use]
     pub fn targets(&self, problem: &Problem, t: f64) -> Targets {
@@ -183,15 +201,9 @@ impl Path {
         stride: &mut Stride,
     ) -> Result<Stop, InvalidInput> {
         let problem = Arc::clone(&system.mesh.problem);
-        if self.offset.is_empty() {
-            let targets = self.targets(&problem, 0.0);
-            match system.evaluate(&reached.x, &targets) {
-                Ok(()) => self.offset.extend_from_slice(system.law_residual()),
-                Err(failure) => {
-                    reached.failure = Some(failure.into());
-                    return Ok(Stop::Failed);
-                }
-            }
+        if let Err(failure) = self.begin(system, reached) {
+            reached.failure = Some(failure.into());
+            return Ok(Stop::Failed);
         }
         let control = Control { tolerance: 1e-6, iterations: 25, least_step: 1e-2 };
         while reached.fraction < 1.0 || stride.again {
@@ -303,18 +315,13 @@ pub struct Stride {
     pub again: bool,
     /// Asked before each step whether to stop.
     pub interrupted: Option<fn() -> bool>,
-    /// Viscosity of the next step, if the ribbon is to creep.
-    pub drag: Option<f64>,
-    /// How often kinks were moved.
-    pub rounds: usize,
 }
 
 /// Why the way is not gone on.
+#[derive(Clone, Debug)]
 pub enum Stop {
     /// The goal is reached.
     There,
-    /// Strains jump within elements: the problem and its mesh with these kinks, and the iterate there.
-    Kinked(Box<(Mesh, Iterate)>),
     /// The mesh is too coarse.
     Coarse(Estimate),
     /// It could not be; [`Reached::failure`] says why.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::adapt::{estimate, refined, transferred};
 use super::check;
-use super::creep::FIRST_DRAG;
+use super::creep::crept;
 use super::ends::Hold;
 use super::fallen::{fallen, is_unstable};
 use super::iterate::{Iterate, Layout};
@@ -65,33 +65,58 @@ pub struct Solved {
     pub report: Report,
 }
 
-/// A try: how much finer the first mesh is, the size of the imperfection, whether the mesh adapts on the way, and
-/// which of the shapes in [`Problem::known`] the way begins with.
+/// A try: how much finer the first mesh is, the size of the imperfection, what the way begins with, and how it is gone.
 struct Attempt {
     finer: usize,
     imperfection: f64,
-    careful: bool,
-    choice: usize,
-    creeps: bool,
+    from: From,
+    gait: Gait,
+}
+
+/// The shape that a way begins with.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum From {
+    /// The first, second or third choice of [`Problem::known`], or a guess in place of the first.
+    Choice(usize),
+    /// The natural shape.
+    Natural,
+    /// The straight one.
+    Straight,
+}
+
+/// How a way is gone.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Gait {
+    /// By equilibria, on the first mesh.
+    Quick,
+    /// By equilibria, on meshes that follow them, and past folds.
+    Careful,
+    /// Creeping.
+    Creeping,
 }
 
 /// What is tried in turn.
 const ATTEMPTS: [Attempt; 8] = [
-    Attempt { finer: 1, imperfection: 1.0, careful: false, choice: 0, creeps: false },
-    Attempt { finer: 4, imperfection: 1.0, careful: true, choice: 0, creeps: false },
-    Attempt { finer: 4, imperfection: 1.0, careful: true, choice: 3, creeps: true },
-    Attempt { finer: 4, imperfection: 1.0, careful: true, choice: 4, creeps: true },
-    Attempt { finer: 4, imperfection: 1.0, careful: true, choice: 1, creeps: false },
-    Attempt { finer: 4, imperfection: -3.0, careful: true, choice: 0, creeps: false },
-    Attempt { finer: 4, imperfection: 1.0, careful: true, choice: 2, creeps: false },
-    Attempt { finer: 8, imperfection: 0.0, careful: true, choice: 0, creeps: false },
+    Attempt { finer: 1, imperfection: 1.0, from: From::Choice(0), gait: Gait::Quick },
+    Attempt { finer: 4, imperfection: 1.0, from: From::Choice(0), gait: Gait::Careful },
+    Attempt { finer: 4, imperfection: 1.0, from: From::Natural, gait: Gait::Creeping },
+    Attempt { finer: 4, imperfection: 1.0, from: From::Straight, gait: Gait::Creeping },
+    Attempt { finer: 4, imperfection: 1.0, from: From::Choice(1), gait: Gait::Careful },
+    Attempt { finer: 4, imperfection: -3.0, from: From::Choice(0), gait: Gait::Careful },
+    Attempt { finer: 4, imperfection: 1.0, from: From::Choice(2), gait: Gait::Careful },
+    Attempt { finer: 8, imperfection: 0.0, from: From::Choice(0), gait: Gait::Careful },
 ];
 
 impl Problem {
-    /// The shape to begin with: the first, second or third choice.
-    fn known(&self, choice: usize, size: f64) -> Option<Known<'static>> {
+    /// The shape to begin with.
+    fn known(&self, from: From, size: f64) -> Option<Known<'static>> {
         let (natural, straight, twisted) =
             (Known::Natural(size), Known::Straight(size), Known::Twisted(size));
+        let choice = match from {
+            From::Straight => return Some(straight),
+            From::Natural => return (self.ends[1].hold != Hold::Closed).then_some(natural),
+            From::Choice(choice) => choice,
+        };
         let choices = if self.ends[1].hold == Hold::Closed {
             [Some(straight), None, None]
         } else if self.ends.iter().any(|end| end.hold == Hold::Free) {
@@ -104,11 +129,7 @@ impl Problem {
                 _ => [Some(straight), Some(natural), None],
             }
         };
-        match choice {
-            3 => Some(natural),
-            4 => Some(straight),
-            _ => choices[choice],
-        }
+        choices[choice]
     }
 }
 
@@ -130,11 +151,11 @@ pub fn solve(
     let mut spent = Spent::default();
     for attempt in ATTEMPTS {
         spent.allowed = (spent.work + MOST_WORK).min(MOST_WORK_OF_ALL);
-        if spent.work >= MOST_WORK_OF_ALL {
+        if spent.left() == 0 {
             break;
         }
-        let known = match (guess, problem.known(attempt.choice, attempt.imperfection)) {
-            (Some(guess), _) if attempt.choice == 0 => Known::Given(guess),
+        let known = match (guess, problem.known(attempt.from, attempt.imperfection)) {
+            (Some(guess), _) if attempt.from == From::Choice(0) => Known::Given(guess),
             (None, Some(known)) => known,
             _ => continue,
         };
@@ -144,18 +165,20 @@ pub fn solve(
             break;
         }
         let mesh = Mesh::new(problem, nodes, settings.degree)?;
-        let step = if guess.is_some() { 1.0 } else { 0.5 };
-        let most = problem.largest_step(&known);
-        let stride = Stride {
-            step: most.min(step),
-            most,
-            careful: attempt.careful,
-            again: false,
-            interrupted: settings.interrupted,
-            drag: attempt.creeps.then_some(FIRST_DRAG),
-            rounds: 0,
+        let (mesh, reached) = if attempt.gait == Gait::Creeping {
+            crept(settings, mesh, &known, &mut spent)?
+        } else {
+            let step = if guess.is_some() { 1.0 } else { 0.5 };
+            let most = problem.largest_step(&known);
+            let stride = Stride {
+                step: most.min(step),
+                most,
+                careful: attempt.gait == Gait::Careful,
+                again: false,
+                interrupted: settings.interrupted,
+            };
+            followed(settings, mesh, &known, stride, &mut spent)?
         };
-        let (mesh, reached) = followed(settings, mesh, &known, stride, &mut spent)?;
         let solved = if reached.failure.is_none() {
             let before = reached.before;
             let mut solved = adapted(settings, mesh, reached.x, &mut spent)?;
@@ -167,7 +190,6 @@ pub fn solve(
         } else {
             unfinished(mesh, reached, &spent)
         };
-        if std::env::var("CREEP").is_ok() { eprintln!("ATTEMPT finer {} choice {} creeps {}: {:?} {} work {} elements {}", attempt.finer, attempt.choice, attempt.creeps, solved.report.status, solved.report.reason, spent.work, solved.nodes.len()); }
         // A mesh that is given is not made finer.
         if !settings.adaptive || solved.report.status == Status::Interrupted {
             return Ok(solved);
@@ -204,45 +226,31 @@ pub fn followed(
     let mut reached = Reached::start(&path);
     loop {
         let mut system = new_system(mesh, settings)?;
-        let stop = if stride.drag.is_some() {
-            let work = spent.allowed.saturating_sub(spent.work);
-            path.creep(&mut system, &mut reached, &mut stride, work)?
-        } else {
-            path.follow(&mut system, &mut reached, &mut stride)?
-        };
+        let stop = path.follow(&mut system, &mut reached, &mut stride)?;
         spent.factorised(&system);
         spent.meshes += 1;
         mesh = system.mesh;
         match stop {
-            Stop::Kinked(kinked) if spent.work < spent.allowed => {
-                let (split, x) = *kinked;
-                reached.x = x;
-                path.transfer(&mesh, &split);
-                mesh = split;
-            }
             Stop::Coarse(estimate) if mesh.elements() < MOST_ON_THE_WAY && spent.work < spent.allowed => {
-                let nodes = refined(&mesh, &estimate, if stride.drag.is_some() { 10.0 } else { 1.0 } * ERROR_ON_THE_WAY);
-                if nodes.len() > MOST_ON_THE_WAY && stride.drag.is_some() {
-                    stride.careful = false;
-                    continue;
-                }
-                let finer = Mesh::new(&mesh.problem, nodes, settings.degree)?;
+                let finer =
+                    Mesh::new(&mesh.problem, refined(&mesh, &estimate, ERROR_ON_THE_WAY), settings.degree)?;
                 reached.x = transferred(&reached.x, &mesh, &finer)?;
                 path.transfer(&mesh, &finer);
                 mesh = finer;
             }
             _ => {
-                spent.iterations += reached.iterations;
-                spent.load_steps += reached.steps;
+                spent.went(&reached);
                 return Ok((mesh, reached));
             }
         }
     }
 }
 
-/// Factorised elements of an attempt that are too many, and of all: some three and seven seconds.
+/// Factorised elements of an attempt, and of all, that are too many: some three and seven seconds.
 const MOST_WORK: usize = 500_000;
 const MOST_WORK_OF_ALL: usize = 1_200_000;
+/// Factorisations that a finer mesh takes at least.
+const FEWEST: usize = 4;
 /// Error that a mesh on a careful way is made for.
 const ERROR_ON_THE_WAY: f64 = 1e-3;
 /// Elements of a mesh on the way that are no longer refined.
@@ -254,7 +262,8 @@ pub struct Spent {
     iterations: usize,
     factorisations: usize,
     load_steps: usize,
-    meshes: usize,
+    /// Meshes.
+    pub meshes: usize,
     /// Factorised elements.
     pub work: usize,
     /// How many may be.
@@ -262,9 +271,22 @@ pub struct Spent {
 }
 
 impl Spent {
-    fn factorised(&mut self, system: &System) {
+    /// Counts the work of a mesh.
+    pub fn factorised(&mut self, system: &System) {
         self.factorisations += system.factorisations;
         self.work += system.factorisations * system.mesh.elements();
+    }
+
+    /// Counts the steps of a way.
+    pub fn went(&mut self, reached: &Reached) {
+        self.iterations += reached.iterations;
+        self.load_steps += reached.steps;
+    }
+
+    /// Work that is still allowed.
+    #[must_use]
+    pub fn left(&self) -> usize {
+        self.allowed.saturating_sub(self.work)
     }
 
     fn report(&self, status: Status, reason: String, fraction: f64, norms: Vec<f64>) -> Report {
@@ -284,7 +306,11 @@ impl Spent {
     }
 }
 
-fn new_system(mesh: Mesh, settings: &Settings) -> Result<System, InvalidInput> {
+/// The equations on a mesh, with the states that are asked for.
+///
+/// # Errors
+/// Where a section is refused.
+pub fn new_system(mesh: Mesh, settings: &Settings) -> Result<System, InvalidInput> {
     match settings.layout {
         Some(layout) => System::with_layout(mesh, layout),
         None => System::new(mesh),
@@ -362,7 +388,7 @@ pub fn adapted(
         } else if !settings.adaptive
             || count >= settings.most_elements
             || spent.meshes >= meshes + MOST_MESHES
-            || spent.work >= spent.allowed
+            || spent.left() < FEWEST * count
         {
             Some(Status::Unresolved)
         } else {

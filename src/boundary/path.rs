@@ -297,8 +297,9 @@ impl Path {
 
     /// The way on another mesh.
     pub fn transfer(&mut self, from: &Mesh, to: &Mesh) {
-        let offset = std::mem::take(&mut self.offset);
-        self.offset = transferred_strains(&offset, from, to);
+        if !self.offset.is_empty() {
+            self.offset = transferred_strains(&self.offset, from, to);
+        }
     }
 }
 

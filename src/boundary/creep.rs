@@ -55,8 +55,8 @@ const LOOK: usize = 4;
 /// Error that a mesh is made for, and elements that are too many for that.
 const ERROR: f64 = 1e-2;
 const MOST_ELEMENTS: usize = 1000;
-/// Relative change of the strains of a ribbon at rest, and the size of a disturbance of one that is not stable there.
-const AT_REST: f64 = 1e-6;
+/// Relative change of the strains, times the drag, of a ribbon at rest, and the size of a disturbance of one that is not stable there.
+const AT_REST: f64 = 1e-5;
 const KICK: f64 = 1e-2;
 
 /// The pace of creeping.
@@ -176,8 +176,11 @@ fn creep(
         reached.steps += 1;
         reached.iterations += ended.norms.len();
         if let Some(failure) = refused(system, &reached.x, &ended, &targets) {
-            let stays = ended.failure.is_none() && changed(&reached.x, &ended.x) < AT_REST;
+            let stays = ended.failure.is_none() && targets.drag * changed(&reached.x, &ended.x) < AT_REST;
             if stays {
+                if let Some(divided) = divided(system, &ended.x, &targets)? {
+                    return Ok(Pause::Kinked(Box::new(divided)));
+                }
                 kick(&system.mesh, &mut reached.x)?;
             }
             let goes_on = pace.slower(t - reached.fraction)
@@ -251,6 +254,32 @@ fn resolvable(system: &System, x: &Iterate, targets: &Targets) -> Result<Estimat
     }
     let correction = system.correction_for(defects.gaps.clone());
     Ok(defects.estimate(&correction, &mesh.problem))
+}
+
+/// The mesh with elements halved that have unstable sections though the ribbon as a whole is stable, and the iterate there: a stage that
+/// stands for too long a part is kept from what a section does.
+fn divided(system: &System, x: &Iterate, targets: &Targets) -> Result<Option<(Mesh, Iterate)>, InvalidInput> {
+    let mesh = &system.mesh;
+    if system.sections.index == 0 || system.index_here(x, targets.load, &[]).is_some_and(|index| index > 0) {
+        return Ok(None);
+    }
+    let degree = mesh.gauss.degree;
+    let mut nodes = mesh.nodes.clone();
+    for i in 0..mesh.elements() {
+        let mut made = Vec::new();
+        let responses = mesh.responses(i, &mut made)?;
+        let strains = &x.strains[i * degree..(i + 1) * degree];
+        if responses.iter().cycle().zip(strains).any(|(response, strain)| response.index(strain) > 0) {
+            nodes.push(0.5 * (mesh.nodes[i] + mesh.nodes[i + 1]));
+        }
+    }
+    if nodes.len() == mesh.nodes.len() || nodes.len() > MOST_ELEMENTS {
+        return Ok(None);
+    }
+    nodes.sort_by(f64::total_cmp);
+    let finer = Mesh::new(&mesh.problem, nodes, degree)?;
+    let x = transferred(x, mesh, &finer)?;
+    Ok(Some((finer, x)))
 }
 
 impl Pace {

@@ -34,6 +34,9 @@ LARGEST_STRAIN = 0.1
 SAMPLES = 201
 """Points at which a guess is handed to the core, besides its own breaks."""
 
+TOLD = 5
+"""Kinks that a warning names."""
+
 ADVICE = {
     "singular": "a guess= nearer to one of the equilibria that meet here, or a slightly different load",
     "diverged": "a smaller load, or guess= the solution for one",
@@ -77,6 +80,7 @@ def equilibrium(
     if guess is None and state.stable is False:
         _warn_unstable(state)
     _warn_stretched(state)
+    _warn_kinked(state)
     return state
 
 
@@ -86,6 +90,14 @@ def _warn_unstable(state: State) -> None:
         told = f"section_index = {state.section_index}: the state is unstable where its sections are"
     message = f"{told}; no stable one was found, which guess= may lead to"
     warnings.warn(message, RibbonWarning, stacklevel=5)
+
+
+def _warn_kinked(state: State) -> None:
+    kinks = [event.S for event in state.report.events if event.kind == "jump"]
+    if kinks:
+        told = ", ".join(f"{S:.6g}" for S in kinks[:TOLD]) + (", ..." if kinks[TOLD:] else "")
+        message = f"the shape jumps along the ribbon, at S = {told}: equilibrium leaves open where exactly"
+        warnings.warn(message, RibbonWarning, stacklevel=5)
 
 
 def _warn_stretched(state: State) -> None:
@@ -189,14 +201,15 @@ def _report(scene: Scene, solution: _core.BoundarySolution, tol: float) -> Repor
 
 
 def _events(scene: Scene, solution: _core.BoundarySolution) -> tuple[Event, ...]:
-    """The point loads, with the strains on both sides."""
-    places = np.unique([load.S for load in scene.loads if isinstance(load, PointLoad) and load.acts])
-    if not places.size:
+    """The point loads, and kinks between sections of different phases, with the strains on both sides."""
+    kinds = dict.fromkeys(solution.kinks, "jump")
+    kinds |= {load.S: "point load" for load in scene.loads if isinstance(load, PointLoad) and load.acts}
+    if not kinds:
         return ()
+    places = np.array(sorted(kinds))
     before, after = (solution.at(S)[0].tolist() for S in (np.nextafter(places, 0.0), places))
     return tuple(
-        Event(S, "point load", tuple(b), tuple(a))
-        for S, b, a in zip(places.tolist(), before, after, strict=True)
+        Event(S, kinds[S], tuple(b), tuple(a)) for S, b, a in zip(places.tolist(), before, after, strict=True)
     )
 
 

@@ -17,7 +17,8 @@ class Event:
         Where.
     kind : str
         "bifurcation": the strains have a corner, where the shape went over to another that begins there;
-        "jump": the shape ends at a fold, and the ribbon has a kink; "growth jump": growth, width or
+        "jump": the shape ends at a fold, or sections of a held ribbon on both sides are in different
+        phases, and the ribbon has a kink; "growth jump": growth, width or
         thickness jumps; "point load": forces and moments jump.
     before, after : tuple of float
         eps, K1, K2, K3 on both sides.

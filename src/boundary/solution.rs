@@ -9,6 +9,7 @@ use super::check;
 use super::ends::{At, Hold, directors};
 use super::gauss::Gauss;
 use super::iterate::Iterate;
+use super::kinks::Phases;
 use super::known::Guess;
 use super::mesh::Mesh;
 use super::problem::Problem;
@@ -239,6 +240,16 @@ impl Solution {
     #[must_use]
     pub fn nodes(&self) -> &[f64] {
         &self.nodes
+    }
+
+    /// Nodes at which the sections on both sides are in different phases, so that strains jump though nothing that is given does.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    pub fn kinks(&self) -> Result<Vec<f64>, InvalidInput> {
+        let mesh = Mesh::new(&self.problem, self.nodes.clone(), self.degree)?;
+        let kinks = Phases::of(&mesh, &self.x)?.kinks;
+        Ok(kinks.into_iter().filter(|s| self.nodes.contains(s)).collect())
     }
 
     /// States at the nodes and strains at the stages.

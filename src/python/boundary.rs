@@ -248,6 +248,12 @@ impl BoundarySolution {
         self.solution.nodes().to_vec().into_pyarray(py)
     }
 
+    /// Where strains jump since sections on both sides are in different phases.
+    #[getter]
+    fn kinks(&self) -> PyResult<Vec<f64>> {
+        Ok(self.solution.kinks()?)
+    }
+
     /// Degree of the collocation.
     #[getter]
     fn degree(&self) -> usize {

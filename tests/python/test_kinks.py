@@ -1,0 +1,69 @@
+"""Held ribbons whose sections are in different phases: the way there, and the kinks between."""
+
+import warnings
+
+import numpy as np
+import pytest
+import ribbonrs as rb
+from stress.equations import misses
+from stress.scenes import random_scene
+from stress.trial import ALLOWED
+
+pytestmark = pytest.mark.filterwarnings("ignore:growth.size")
+
+STRIP = rb.Ribbon(20.0, 1.0, 0.1)
+MIDDLE = rb.growth.edge(-0.15)
+SLIDING = rb.Sliding((0.0, 0.0, 1.0))
+
+
+@pytest.fixture(scope="module")
+def zigzag():
+    """A strip that wants to be bent, either way, between ends that are held parallel."""
+    with pytest.warns(rb.RibbonWarning) as told:
+        state = rb.solve(rb.Scene(STRIP, MIDDLE, end=SLIDING))
+    assert any("the shape jumps along the ribbon, at S = " in str(one.message) for one in told)
+    return state
+
+
+def test_a_strip_that_cannot_bend_one_way_bends_both_ways(zigzag):
+    bent = rb.natural_shapes(STRIP, MIDDLE)[0]
+    K2 = abs(bent.strain[2])
+    # Each section is in a phase of its own, with the curvature that this phase has without load but for what the ends ask for.
+    assert np.all(np.abs(np.abs(zigzag.strains[:, 2]) - K2) < 0.1 * K2)
+    assert {event.kind for event in zigzag.report.events} == {"jump"}
+    # The straight strip between these ends, which smooth states are near, has far more energy.
+    flat = next(shape for shape in rb.natural_shapes(STRIP, MIDDLE) if shape.phase == "flat")
+    assert zigzag.energy - bent.energy < 0.01 * (flat.energy - bent.energy)
+    assert zigzag.stable and zigzag.section_index == 0
+
+
+def test_resultants_are_the_same_on_both_sides_of_a_kink(zigzag):
+    law = rb.SectionLaw.of(STRIP, MIDDLE)
+    for event in zigzag.report.events:
+        before, after = (law.gradient(np.array(side)) for side in (event.before, event.after))
+        assert event.before[2] * event.after[2] < 0.0
+        # Strains are known to the tolerance over the length; softest stiffness eta^2/12.
+        np.testing.assert_allclose(before, after, rtol=0.0, atol=1e-12)
+        for side in (event.before, event.after):
+            assert np.linalg.eigvalsh(law.hessian(np.array(side)))[0] > 0.0
+
+
+def test_a_kinked_state_is_an_equilibrium(zigzag):
+    misses_of = misses(zigzag)
+    assert max(misses_of.values()) <= ALLOWED * 1e-10
+
+
+@pytest.mark.parametrize("seed", [3, 18, 25, 34, 64, 79])
+def test_scenes_that_no_smooth_way_leads_to(seed):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", rb.RibbonWarning)
+        scene = random_scene(seed)[2]()
+        state = rb.solve(scene)
+    assert "jump" in {event.kind for event in state.report.events}
+    assert state.stable and state.index == 0
+    assert max(misses(state).values()) <= ALLOWED * 1e-10
+
+
+def test_a_smooth_state_has_no_kinks():
+    state = rb.solve(rb.Scene(STRIP, rb.growth.edge(0.02), end=rb.Clamped((1.0, 0.5, 18.0))))
+    assert state.report.events == ()

@@ -346,7 +346,10 @@ fn located<E: Equations>(
             if from_the_side && passes_by::<E>(&tried[..tried.len().min(MEMORY)], best.1, limits) {
                 return None;
             }
-            return Some(between_two(equations, &tried[1], &tried[0], best.1, &a.along));
+            // Of two that are too near to each other rounding is what they tell.
+            let near = &tried[0];
+            let other = tried.iter().find(|other| (other.s - near.s).abs() > 0.5 * apart(near));
+            return Some(between_two(equations, other.unwrap_or(&tried[1]), near, best.1, &a.along));
         }
         if length < NEAREST {
             let last = &tried[tried.len().saturating_sub(MEMORY)..];

@@ -141,6 +141,8 @@ const MOST_MESHES: usize = 20;
 /// another.
 const DISTINCT: f64 = 0.5;
 const MOST_DISTINCT: f64 = 1e-8;
+/// Finer meshes in a row that do not come to that: rounding keeps them.
+const MOST_SHARPENED: usize = 2;
 /// Steps after which the mesh is looked at.
 const CHECKED: usize = 4;
 
@@ -168,6 +170,8 @@ pub fn follow<E: Equations>(
     let mut steps = 0;
     let mut at_end = false;
     let (mut meshes, mut unresolved_before) = (0, None);
+    // Finer meshes in a row for the sake of what lies within the next step.
+    let mut sharpened = 0;
     let mut postponed = 0;
     loop {
         if meshes > MOST_MESHES {
@@ -214,14 +218,13 @@ pub fn follow<E: Equations>(
         let last = branch.points.len() - 1;
         let next = advanced(equations, &branch.points[last], &memory, step, limits);
         // What happens on a mesh that is too coarse is looked for in vain.
-        let finer =
-            next.as_ref().ok().filter(|next| unlike(&branch.points[last], &next.point)).and_then(|next| {
-                let Point { x, t, along, .. } = &next.point;
-                equations
-                    .refined(x, *t, along, (DISTINCT * limits.tolerance).min(MOST_DISTINCT))
-                    .ok()
-                    .flatten()
-            });
+        let most = (DISTINCT * limits.tolerance).min(MOST_DISTINCT);
+        let looks =
+            |next: &&Advanced<E>| sharpened < MOST_SHARPENED && unlike(&branch.points[last], &next.point);
+        let finer = next.as_ref().ok().filter(looks).and_then(|next| {
+            let Point { x, t, along, .. } = &next.point;
+            equations.refined(x, *t, along, most).ok().flatten()
+        });
         let next = next.and_then(|next| {
             if finer.is_some() {
                 return Ok((next, Vec::new()));
@@ -243,6 +246,7 @@ pub fn follow<E: Equations>(
         };
         (steps, since) = (steps + 1, since + 1);
         let mut stopped = false;
+        sharpened = if finer.is_some() { sharpened + 1 } else { 0 };
         let coarse = found.iter().find_map(|found| unresolved(equations, found, limits, unresolved_before));
         let finer = finer.or_else(|| {
             let (finer, place, error) = coarse?;

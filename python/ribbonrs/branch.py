@@ -248,7 +248,9 @@ def root(function: Callable[[float], float], ends: tuple[float, float]) -> float
 
 
 def _lengths(parameter: Parameter, values: Array) -> Array:
-    """Length over width of the ribbon at each value of the parameter."""
+    """Length over width of the ribbon at each value of the parameter, of which only one changes it."""
+    if parameter.name != "ribbon.length":
+        return np.full(values.size, parameter.base.ribbon.length_ratio)
     return np.array([parameter.scene(value).ribbon.length_ratio for value in values.tolist()])
 
 

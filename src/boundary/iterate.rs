@@ -104,6 +104,25 @@ impl Iterate {
         }
     }
 
+    /// The correction that moves this iterate to another on the same mesh.
+    #[must_use]
+    pub fn difference(&self, to: &Self, units: &Units) -> Correction {
+        let node = |(from, to): (&At, &At)| {
+            let shift = (to.position - from.position) / units.length;
+            let turn = rotation_vector(&(to.rotation * from.rotation.conjugate()));
+            let force = (to.force - from.force) / units.force;
+            let moment = (to.about_origin - from.about_origin) / units.moment;
+            let parts = [shift, turn, force, moment];
+            std::array::from_fn(|i| parts[i / 3][i % 3])
+        };
+        let strains = self.strains.iter().zip(&to.strains).map(|(from, to)| to - from);
+        Correction {
+            nodes: self.nodes.iter().zip(&to.nodes).map(node).collect(),
+            strains: strains.collect(),
+            slack: std::array::from_fn(|i| to.slack[i] - self.slack[i]),
+        }
+    }
+
     /// Strains at `x` in [0, 1] of an element, by the polynomial through its stages.
     #[must_use]
     pub fn strain(&self, mesh: &Mesh, element: usize, x: f64) -> Strain {
@@ -112,6 +131,13 @@ impl Iterate {
         let strains = &self.strains[element * s..(element + 1) * s];
         strains.iter().zip(basis).map(|(e, l)| e * l).sum()
     }
+}
+
+/// The rotation vector of a unit quaternion, of at most half a turn.
+fn rotation_vector(q: &Quaternion<f64>) -> Vector {
+    let (sine, sense) = (q.imag().norm(), 1_f64.copysign(q.w));
+    let half = sine.atan2(q.w.abs());
+    q.imag() * (2.0 * sense * if sine > 1e-8 { half / sine } else { 1.0 })
 }
 
 impl Correction {
@@ -135,6 +161,20 @@ impl Correction {
             strains: strains.collect(),
             slack: std::array::from_fn(|i| self.slack[i] + factor * other.slack[i]),
         }
+    }
+
+    /// What a change after this one changes this one by: with `x` moved by it, `x` is moved by their sum. Of rotation vectors
+    /// `w`, `v` that is `v - w x v/2 + w x (w x v)/12` but for terms of the fourth order in `w`.
+    #[must_use]
+    pub fn before(&self, change: &Self) -> Self {
+        let node = |(by, change): (&[f64; 12], &[f64; 12])| {
+            let [w, v] = [by, change].map(|c| Vector::new(c[3], c[4], c[5]));
+            let across = w.cross(&v);
+            let turn = v - 0.5 * across + w.cross(&across) / 12.0;
+            std::array::from_fn(|i| if (3..6).contains(&i) { turn[i - 3] } else { change[i] })
+        };
+        let nodes = self.nodes.iter().zip(&change.nodes).map(node).collect();
+        Self { nodes, strains: change.strains.clone(), slack: change.slack }
     }
 
     /// The change on another mesh, joined by lines between nodes.

@@ -30,8 +30,9 @@ pub struct Stepper {
     drag: f64,
 }
 
-/// Newton iterations of the stages; from the polynomial of an element two or three do.
-const ITERATIONS: usize = 8;
+/// Newton iterations of the stages, and changes, relative to the strains or to the last, below which factors are kept.
+const ITERATIONS: usize = 12;
+const CHORD: f64 = 1e-2;
 
 impl Stepper {
     /// A stepper.
@@ -98,10 +99,13 @@ impl Stepper {
         let mut solved = false;
         let mut before = f64::INFINITY;
         if solve {
+            let mut factors = false;
             for _ in 0..ITERATIONS {
                 let exit = self.stages.evaluate(&span, &entry, strains);
-                self.stages.linearise(&span, &exit, strains, &mut self.eliminated);
-                self.eliminated.eliminate();
+                if !factors {
+                    self.stages.linearise(&span, &exit, strains, &mut self.eliminated);
+                    self.eliminated.eliminate();
+                }
                 let mut changes = [Strain::zeros(); MAX_DEGREE];
                 self.eliminated.solve(&self.stages.residual, &mut changes[..degree]);
                 let size = changes[..degree].iter().map(|e| e.amax()).fold(0.0, f64::max);
@@ -112,11 +116,14 @@ impl Stepper {
                     *strain += change;
                 }
                 let scale = strains.iter().map(|e| e.amax()).fold(0.0, f64::max);
-                // Quadratic: the next change would be of the square of this one.
-                if size <= 1e-9 * scale || size < 1e-15 {
+                // With new factors the next change would be of the square of this one, with known ones as much less as this one is.
+                let rate = if factors { size / before } else { size / scale };
+                let left = if factors { rate * size } else { 1e-7 * size };
+                if left <= 1e-16 * scale || size < 1e-15 * scale.max(1.0) {
                     solved = true;
                     break;
                 }
+                factors = rate < CHORD;
                 before = size;
             }
             if !solved {

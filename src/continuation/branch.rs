@@ -1,8 +1,10 @@
 //! A branch, from a point of it as far as it is asked for.
 
-use super::correct::{Corrected, Guess, Point, PointOf, corrected, reversed};
+use super::correct::{
+    Corrected, EXACTLY, Guess, Point, PointOf, ROUGHLY, arclength, corrected, difference, reversed,
+};
 use super::equations::{Direction, Equations, Failed, dot};
-use super::locate::{Found, special_points};
+use super::locate::{Found, special_points, unlike};
 use super::predict::weights;
 use super::switch::{across, stepped};
 
@@ -129,12 +131,18 @@ const FAR: f64 = 8.0 * PREDICTION;
 const TURN: f64 = 0.7;
 /// A step that is too short.
 const SHORTEST: f64 = 1e-7;
-/// Tangents that a prediction uses.
+/// Points that a prediction uses.
 const MEMORY: usize = 4;
 /// Looks at a mesh in a row that may be postponed.
 const MOST_POSTPONED: usize = 3;
 /// Meshes of a branch that are too many.
 const MOST_MESHES: usize = 20;
+/// Errors where there are special points, of the tolerance of points, and at most: by its third root two branches that meet may miss one
+/// another.
+const DISTINCT: f64 = 0.5;
+const MOST_DISTINCT: f64 = 1e-8;
+/// Finer meshes in a row that do not come to that: rounding keeps them.
+const MOST_SHARPENED: usize = 2;
 /// Steps after which the mesh is looked at.
 const CHECKED: usize = 4;
 
@@ -154,13 +162,16 @@ pub fn follow<E: Equations>(
     };
     let mut step = branch.points[0].s.max(FIRST_STEP);
     let motions = branch.points[0].stability.free_motions;
-    // How many of the last tangents predict the next point: those on this mesh, before any failure.
-    let mut memory = 1;
-    // The last point whose mesh is known to be fine enough, and how many steps ago that was.
-    let (mut fine, mut since) = (0, CHECKED);
+    // The last regular points, on this mesh, by which the next is predicted.
+    let mut memory = vec![branch.points[0].clone()];
+    // The last point whose mesh is known to be fine enough, what was remembered there, and how many steps ago that was.
+    let mut fine = Fine { place: 0, memory: memory.clone(), step };
+    let mut since = CHECKED;
     let mut steps = 0;
     let mut at_end = false;
-    let (mut meshes, mut unresolved_before) = (0, f64::INFINITY);
+    let (mut meshes, mut unresolved_before) = (0, None);
+    // Finer meshes in a row for the sake of what lies within the next step.
+    let mut sharpened = 0;
     let mut postponed = 0;
     loop {
         if meshes > MOST_MESHES {
@@ -169,9 +180,21 @@ pub fn follow<E: Equations>(
         }
         if since >= CHECKED || at_end {
             since = 0;
-            match verified(equations, &mut branch, fine, limits) {
-                Ok(true) => (fine, postponed) = (branch.points.len() - 1, 0),
-                Ok(false) => (memory, at_end, meshes) = (1, false, meshes + 1),
+            let last = &branch.points[branch.points.len() - 1];
+            match equations.refined(&last.x, last.t, &last.along, f64::INFINITY) {
+                Ok(None) => {
+                    (fine, postponed) =
+                        (Fine { place: branch.points.len() - 1, memory: memory.clone(), step }, 0)
+                }
+                Ok(Some(finer)) => match restart(equations, &mut branch, &mut fine, &finer, limits) {
+                    Ok(remembered) => {
+                        (memory, step, at_end, meshes) = (remembered, fine.step, false, meshes + 1)
+                    }
+                    Err(failed) => {
+                        branch.ended[1] = ended_by(branch.points.last(), failed);
+                        break;
+                    }
+                },
                 // Next to a branch point errors are large in one direction only: the next points tell more.
                 Err(Failed::Fine(_)) if postponed < MOST_POSTPONED && !at_end => postponed += 1,
                 Err(failed) => {
@@ -193,7 +216,19 @@ pub fn follow<E: Equations>(
         }
         equations.expect_motions(Some(motions));
         let last = branch.points.len() - 1;
-        let next = advanced(equations, &branch.points, memory, step, limits).and_then(|next| {
+        let next = advanced(equations, &branch.points[last], &memory, step, limits);
+        // What happens on a mesh that is too coarse is looked for in vain.
+        let most = (DISTINCT * limits.tolerance).min(MOST_DISTINCT);
+        let looks =
+            |next: &&Advanced<E>| sharpened < MOST_SHARPENED && unlike(&branch.points[last], &next.point);
+        let finer = next.as_ref().ok().filter(looks).and_then(|next| {
+            let Point { x, t, along, .. } = &next.point;
+            equations.refined(x, *t, along, most).ok().flatten()
+        });
+        let next = next.and_then(|next| {
+            if finer.is_some() {
+                return Ok((next, Vec::new()));
+            }
             let found = special_points(equations, &branch.points[last], &next.point, limits)?;
             Ok((next, found))
         });
@@ -201,7 +236,7 @@ pub fn follow<E: Equations>(
             Ok(next) => next,
             Err(failed) => {
                 step *= 0.3;
-                memory = memory.min(2);
+                memory.drain(..memory.len().saturating_sub(2));
                 if step < SHORTEST || matches!(failed, Failed::Refused(_)) {
                     branch.ended[1] = ended_by(branch.points.last(), failed);
                     break;
@@ -211,17 +246,24 @@ pub fn follow<E: Equations>(
         };
         (steps, since) = (steps + 1, since + 1);
         let mut stopped = false;
+        sharpened = if finer.is_some() { sharpened + 1 } else { 0 };
         let coarse = found.iter().find_map(|found| unresolved(equations, found, limits, unresolved_before));
-        if let Some((finer, error)) = coarse {
-            unresolved_before = error;
-            if let Err(failed) = restart(equations, &mut branch, fine, &finer, limits) {
-                branch.ended[1] = ended_by(branch.points.last(), failed);
-                break;
+        let finer = finer.or_else(|| {
+            let (finer, place, error) = coarse?;
+            unresolved_before = Some((place, error));
+            Some(finer)
+        });
+        if let Some(finer) = finer {
+            match restart(equations, &mut branch, &mut fine, &finer, limits) {
+                Ok(remembered) => (memory, step) = (remembered, fine.step),
+                Err(failed) => {
+                    branch.ended[1] = ended_by(branch.points.last(), failed);
+                    break;
+                }
             }
-            (memory, since, meshes) = (1, CHECKED, meshes + 1);
+            (since, meshes) = (CHECKED, meshes + 1);
             continue;
         }
-        unresolved_before = f64::INFINITY;
         for found in found {
             stopped = stop(equations, &found.point, found.kind);
             let place = branch.points.len();
@@ -235,9 +277,9 @@ pub fn follow<E: Equations>(
             branch.ended[1] = Ended::Joined;
             break;
         }
-        // Special points between are too near for their tangents to tell more.
-        memory = if branch.points.len() > last + 1 { 1 } else { (memory + 1).min(MEMORY) };
         at_end = next.at_end;
+        memory.drain(..(memory.len() + 1).saturating_sub(MEMORY));
+        memory.push(next.point.clone());
         branch.points.push(next.point);
         if is_closed(equations, &branch, last) {
             branch.ended[1] = Ended::Closed;
@@ -247,6 +289,13 @@ pub fn follow<E: Equations>(
         step = (step * (0.9 * factor).clamp(0.3, 2.5)).min(limits.longest);
     }
     branch
+}
+
+/// A point whose mesh is fine enough: its place on the branch, the points by which the next was predicted, and the step to that.
+struct Fine<E: Equations> {
+    place: usize,
+    memory: Vec<PointOf<E>>,
+    step: f64,
 }
 
 struct Advanced<E: Equations> {
@@ -259,20 +308,22 @@ struct Advanced<E: Equations> {
 /// The next point, a step away, or where the range of the parameter ends.
 fn advanced<E: Equations>(
     equations: &mut E,
-    points: &[PointOf<E>],
-    memory: usize,
+    last: &PointOf<E>,
+    memory: &[PointOf<E>],
     step: f64,
     limits: &Limits,
 ) -> Result<Advanced<E>, Failed> {
-    let known = &points[points.len() - memory.min(points.len())..];
-    let last = &points[points.len() - 1];
+    let places: Vec<f64> = memory.iter().map(|point| point.s).collect();
+    let before = &memory[..memory.len() - 1];
+    let changes: Vec<E::Change> =
+        before.iter().map(|point| equations.difference(&last.x, &point.x)).collect();
     let predicted = |equations: &mut E, length: f64| {
-        let places: Vec<f64> = known.iter().map(|point| point.s).collect();
-        let weights = weights(&places, length);
-        let parts: Vec<_> = weights.iter().copied().zip(known.iter().map(|point| &point.along.x)).collect();
+        let (weights, tangent) = weights(&places, length);
+        let mut parts: Vec<_> = weights.iter().copied().zip(&changes).collect();
+        parts.push((tangent, &last.along.x));
         let change = equations.sum(&parts);
-        let t = last.t + weights.iter().zip(known).map(|(w, point)| w * point.along.t).sum::<f64>();
-        (equations.moved(&last.x, &change, 1.0), t)
+        let ahead: f64 = weights.iter().zip(before).map(|(w, point)| w * (point.t - last.t)).sum();
+        (equations.moved(&last.x, &change, 1.0), last.t + ahead + tangent * last.along.t)
     };
     let (x, t) = predicted(equations, step);
     let outside = |t: f64| !(0.0..=1.0).contains(&t);
@@ -290,21 +341,27 @@ fn advanced<E: Equations>(
             guess = predicted(equations, length);
         }
         let guess = Guess { x: guess.0, t: end, across: None, sense: Some(&last.along) };
-        let Corrected { mut point, first } = corrected(equations, guess, limits.tolerance, false)?;
+        let Corrected { mut point, first } = corrected(equations, guess, limits.tolerance, ROUGHLY)?;
         point.t = end;
         near(equations, last, &point, first, length)?;
-        point.s = last.s + length;
-        return Ok(Advanced { point, order: known.len(), error: first, at_end: true });
+        point.s = last.s + arc(equations, last, &point);
+        return Ok(Advanced { point, order: memory.len(), error: first, at_end: true });
     }
     let guess = Guess { x, t, across: Some(&last.along), sense: Some(&last.along) };
-    let Corrected { mut point, first } = corrected(equations, guess, limits.tolerance, false)?;
+    let Corrected { mut point, first } = corrected(equations, guess, limits.tolerance, ROUGHLY)?;
     near(equations, last, &point, first, step)?;
     if outside(point.t) {
         // A shorter step meets the end.
         return Err(Failed::Jumped);
     }
-    point.s = last.s + step;
-    Ok(Advanced { point, order: known.len(), error: first, at_end: false })
+    point.s = last.s + arc(equations, last, &point);
+    Ok(Advanced { point, order: memory.len(), error: first, at_end: false })
+}
+
+/// The arclength from a point to the next.
+fn arc<E: Equations>(equations: &mut E, from: &PointOf<E>, to: &PointOf<E>) -> f64 {
+    let change = difference(equations, from, to);
+    arclength(equations, [from, to], &change)
 }
 
 /// Refuses a point that is not the next one.
@@ -329,71 +386,70 @@ fn ended_by<S, C>(last: Option<&Point<S, C>>, failed: Failed) -> Ended {
     }
 }
 
-/// Looks at the mesh of the last point. If it is too coarse, all points since it was last found fine enough are dropped, and that one
-/// is put on the finer mesh.
-fn verified<E: Equations>(
-    equations: &mut E,
-    branch: &mut BranchOf<E>,
-    fine: usize,
-    limits: &Limits,
-) -> Result<bool, Failed> {
-    let last = &branch.points[branch.points.len() - 1];
-    let Some(finer) = equations.refined(&last.x, last.t, &last.along)? else { return Ok(true) };
-    restart(equations, branch, fine, &finer, limits)?;
-    Ok(false)
-}
-
-/// Drops all points after one, and puts that on another mesh.
+/// Drops all points since the mesh was last found fine enough, and puts that one, and what was remembered there, on a finer one.
 fn restart<E: Equations>(
     equations: &mut E,
     branch: &mut BranchOf<E>,
-    fine: usize,
+    fine: &mut Fine<E>,
     like: &E::State,
     limits: &Limits,
-) -> Result<(), Failed> {
-    let point = &branch.points[fine];
+) -> Result<Vec<PointOf<E>>, Failed> {
+    let place = fine.place;
+    let point = &branch.points[place];
     let (x, along) = equations.remeshed(&point.x, &point.along.x, like, point.t)?;
     let along = Direction { x: along, t: point.along.t };
     // What the branch begins with is at a value of the parameter, which it keeps, unless that is at a fold.
-    let kept = fine == 0 && along.t.abs() > 0.1;
+    let kept = place == 0 && along.t.abs() > 0.1;
     let across = if kept { None } else { Some(&along) };
     let guess = Guess { x, t: point.t, across, sense: Some(&along) };
-    let mut again = corrected(equations, guess, limits.tolerance, true)?.point;
+    let mut again = corrected(equations, guess, limits.tolerance, EXACTLY)?.point;
     if kept {
         again.t = point.t;
     }
     again.s = point.s;
-    branch.points.truncate(fine);
+    let mut memory = Vec::new();
+    for point in &fine.memory[..fine.memory.len() - 1] {
+        let (x, along) = equations.remeshed(&point.x, &point.along.x, like, point.t)?;
+        memory.push(Point { x, along: Direction { x: along, t: point.along.t }, ..point.clone() });
+    }
+    memory.push(again.clone());
+    fine.memory.clone_from(&memory);
+    branch.points.truncate(place);
     branch.points.push(again);
-    branch.special.retain(|special| special.place < fine);
-    Ok(())
+    branch.special.retain(|special| special.place < place);
+    Ok(memory)
 }
 
-/// The state at a branch point on a mesh twice as fine, if this one is too coarse: a straight ribbon is exact on any mesh, but not the
-/// shape into which it buckles.
+/// The state at a branch point on a finer mesh, if this one is too coarse: a straight ribbon is exact on any mesh, but not the shape into
+/// which it buckles. With it the place, and the error of the parameter there.
 fn unresolved<E: Equations>(
     equations: &mut E,
     found: &Found<E>,
     limits: &Limits,
-    before: f64,
-) -> Option<(E::State, f64)> {
+    before: Option<(f64, f64)>,
+) -> Option<(E::State, f64, f64)> {
     let Found { point, kind: SpecialKind::BranchPoint, multiplicity } = found else { return None };
     let off = across(equations, point, *multiplicity).into_iter().next();
     let aside = off.and_then(|off| Some((stepped(equations, point, &off, limits)?, off)));
-    let error = match aside {
-        Some((aside, off)) => equations.parameter_error(&aside.x, aside.t, &off).ok()?.abs(),
+    let (error, finer) = match aside {
+        Some((aside, off)) => {
+            let moved = MOVED.max(LOCATED * limits.tolerance);
+            equations.resolved(&aside.x, aside.t, &off, moved).ok()?
+        }
         // No other branch is found: once more on a finer mesh.
-        None => UNKNOWN,
+        None => (UNKNOWN, equations.doubled(&point.x, point.t).ok()?),
     };
     // What a finer mesh did not help is rounding.
-    if error < MOVED || error > 0.25 * before {
+    let again = |(place, before): (f64, f64)| (place - point.t).abs() < 2.0 * before && error > 0.25 * before;
+    if before.is_some_and(again) {
         return None;
     }
-    Some((equations.doubled(&point.x, point.t).ok()??, error))
+    finer.map(|finer| (finer, point.t, error))
 }
 
-/// Error of the parameter at a branch point that is too large, and one that stands for an unknown one.
+/// Error of the parameter at a branch point that is too large, the same of the tolerance of points, and one that stands for an unknown one.
 const MOVED: f64 = 2e-11;
+const LOCATED: f64 = 0.1;
 const UNKNOWN: f64 = 1.0;
 
 /// Whether the branch has come back to its first point.
@@ -430,7 +486,7 @@ pub fn begin<E: Equations>(
 ) -> Result<PointOf<E>, Failed> {
     equations.expect_motions(None);
     let guess = Guess { x, t, across: None, sense: None };
-    let Corrected { mut point, first } = corrected(equations, guess, limits.tolerance, true)?;
+    let Corrected { mut point, first } = corrected(equations, guess, limits.tolerance, EXACTLY)?;
     if first > NEAR {
         return Err(Failed::Jumped);
     }

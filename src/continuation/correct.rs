@@ -32,6 +32,21 @@ pub fn reversed<E: Equations>(equations: &E, mut point: PointOf<E>) -> PointOf<E
     point
 }
 
+/// The change from one point to another on the same mesh.
+pub fn difference<E: Equations>(equations: &mut E, from: &PointOf<E>, to: &PointOf<E>) -> DirectionOf<E> {
+    Direction { x: equations.difference(&from.x, &to.x), t: to.t - from.t }
+}
+
+/// The arclength between two points, from their difference and their tangents: that of a cubic but for terms of the fifth order.
+pub fn arclength<E: Equations>(
+    equations: &E,
+    [from, to]: [&PointOf<E>; 2],
+    difference: &DirectionOf<E>,
+) -> f64 {
+    let turned = 1.0 - dot(equations, &from.along, &to.along);
+    dot(equations, difference, difference).sqrt() * (1.0 + turned / 12.0)
+}
+
 /// Where a correction starts, and across what it goes.
 pub struct Guess<'a, E: Equations> {
     /// State.
@@ -54,16 +69,19 @@ pub struct Corrected<E: Equations> {
 
 /// Linearisations that are too many.
 const ITERATIONS: usize = 10;
-/// After a correction below this, one more with the same factors is tried.
+/// After a correction below this, more with the same factors are tried, as many as this as long as each is below a tenth of the last.
 const SMALL: f64 = 1e-2;
-/// Tangent and stability are exact enough if the last correction before them was below this, or if Newton's method has not come as
-/// near in half of its steps: then rounding keeps it.
-const EXACT: f64 = 1e-10;
+const CHORDS: usize = 4;
+const FAST: f64 = 0.1;
+/// How far from the equilibrium its tangent and stability may be taken: for the next step, and for their own sake. Next to a branch point
+/// the tangent changes with that a thousand times as much.
+pub const ROUGHLY: f64 = 1e-5;
+pub const EXACTLY: f64 = 1e-10;
 /// Below this corrections that no longer shrink are rounding, which a branch point near by amplifies along the other branch.
 const ROUNDING: [f64; 2] = [1e-8, 1e-7];
 
-/// The equilibrium near a guess, to `tolerance`. Tangent and stability are those where the equations were last linearised, before
-/// a correction below [`SMALL`], or, if `exactly`, below [`EXACT`].
+/// The equilibrium near a guess, to `tolerance`. Tangent and stability are those where the equations were last linearised, at most `aside`
+/// of it, or, if Newton's method has not come as near in half of its steps, where rounding keeps it.
 ///
 /// # Errors
 /// Where Newton's method fails.
@@ -71,10 +89,10 @@ pub fn corrected<E: Equations>(
     equations: &mut E,
     guess: Guess<'_, E>,
     tolerance: f64,
-    exactly: bool,
+    aside: f64,
 ) -> Result<Corrected<E>, Failed> {
     let Guess { mut x, mut t, across, sense } = guess;
-    let negligible = ROUNDING[usize::from(exactly)];
+    let negligible = ROUNDING[usize::from(aside < ROUGHLY)];
     let (mut before, mut first) = (f64::INFINITY, f64::INFINITY);
     for iteration in 0..ITERATIONS {
         equations.linearise(&x, t, across)?;
@@ -104,31 +122,53 @@ pub fn corrected<E: Equations>(
         if size > SMALL {
             continue;
         }
-        equations.evaluate(&x, t)?;
-        let (change, again) = step(equations)?;
-        x = equations.moved(&x, &change.x, 1.0);
-        t += change.t;
-        let rounding = size < negligible && again < negligible && again >= 0.25 * size;
-        if !(again <= 0.5 * size || rounding) {
-            return Err(Failed::Diverged(again));
-        }
-        before = again;
-        if (again <= tolerance || rounding)
-            && (rounding || !exactly || size <= EXACT || iteration > ITERATIONS / 2)
-        {
-            let x = equations.settled(x, t)?;
-            let place = equations.settled(linearised.0, linearised.1)?;
-            let mut stability = equations.stability(&place, linearised.1);
-            let along = unit(equations, &line);
-            let backward = sense.is_some_and(|sense| dot(equations, sense, &along) < 0.0);
-            let along = scaled(equations, &along, if backward { -1.0 } else { 1.0 });
-            // The determinant is that with the plane as its last row: let it face along the branch.
-            let facing = across.map_or(along.t, |across| dot(equations, across, &along));
-            if let Some(determinant) = &mut stability.determinant {
-                determinant.sign *= facing.signum();
+        let close = size <= aside || iteration > ITERATIONS / 2;
+        for chord in 0..if close { CHORDS } else { 1 } {
+            equations.evaluate(&x, t)?;
+            let (change, again) = step(equations)?;
+            x = equations.moved(&x, &change.x, 1.0);
+            t += change.t;
+            let rounding = before < negligible && again < negligible && again >= 0.25 * before;
+            let rate = again / before;
+            if chord == 0 && !(rate <= 0.5 || rounding) {
+                return Err(Failed::Diverged(again));
             }
-            return Ok(Corrected { point: Point { x, t, s: 0.0, along, stability }, first });
+            before = again;
+            // What is left is the next correction.
+            let left = if rate < FAST { rate * again } else { again };
+            let enough = rounding && size < negligible || close && (rounding || left <= tolerance);
+            if enough {
+                return Ok(Corrected {
+                    point: reached(equations, (x, t), linearised, &line, (across, sense))?,
+                    first,
+                });
+            }
+            if rate.is_nan() || rate >= FAST {
+                break;
+            }
         }
     }
     Err(Failed::Diverged(before))
+}
+
+/// The equilibrium, with the tangent and the stability where the equations were linearised.
+fn reached<E: Equations>(
+    equations: &mut E,
+    (x, t): (E::State, f64),
+    linearised: (E::State, f64),
+    line: &DirectionOf<E>,
+    (across, sense): (Option<&DirectionOf<E>>, Option<&DirectionOf<E>>),
+) -> Result<PointOf<E>, Failed> {
+    let x = equations.settled(x, t)?;
+    let place = equations.settled(linearised.0, linearised.1)?;
+    let mut stability = equations.stability(&place, linearised.1);
+    let along = unit(equations, line);
+    let backward = sense.is_some_and(|sense| dot(equations, sense, &along) < 0.0);
+    let along = scaled(equations, &along, if backward { -1.0 } else { 1.0 });
+    // The determinant is that with the plane as its last row: let it face along the branch.
+    let facing = across.map_or(along.t, |across| dot(equations, across, &along));
+    if let Some(determinant) = &mut stability.determinant {
+        determinant.sign *= facing.signum();
+    }
+    Ok(Point { x, t, s: 0.0, along, stability })
 }

@@ -4,7 +4,7 @@ use super::branch::{BranchOf, Ended, Limits, Special, SpecialKind, follow};
 use super::correct::{PointOf, reversed};
 use super::equations::Equations;
 use super::locate::{Found, at as at_length, at_value, special_points, values_between};
-use super::switch::{Leaving, alike, leaving, leaving_with_section};
+use super::switch::{FROM_THE_SIDE, Leaving, alike, leaving, leaving_with_section};
 
 /// Branches and their special points.
 pub struct Diagram<E: Equations> {
@@ -176,9 +176,6 @@ fn walked<E: Equations>(equations: &mut E, start: PointOf<E>, limits: &Limits, m
         from_the_side && times_met(equations, met, point) > 0
     })
 }
-
-/// Change of the parameter along the unit tangent below which a branch meets another from the side.
-const FROM_THE_SIDE: f64 = 1e-3;
 
 /// Notes the branch points of a branch.
 fn note<E: Equations>(equations: &mut E, branch: &BranchOf<E>, met: &mut Vec<Met>) {

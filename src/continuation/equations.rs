@@ -69,6 +69,12 @@ pub trait Equations {
     /// `x` changed by `factor` times a change.
     fn moved(&mut self, x: &Self::State, change: &Self::Change, factor: f64) -> Self::State;
 
+    /// The change that moves one state to another on the same mesh, but for free motions.
+    fn difference(&mut self, from: &Self::State, to: &Self::State) -> Self::Change;
+
+    /// A change that follows another as one that is added to it.
+    fn added(&self, first: &Self::Change, then: &Self::Change) -> Self::Change;
+
     /// `x` with what is known but for the parameter, such as forces that given loads take away, as it is at `t`.
     ///
     /// # Errors
@@ -116,7 +122,8 @@ pub trait Equations {
     /// Numbers that are the same for mirror images, to tell equilibria apart.
     fn invariants(&mut self, x: &Self::State, t: f64) -> Vec<f64>;
 
-    /// The state of a branch with this tangent on a finer mesh, if the one it has is too coarse.
+    /// The state of a branch with this tangent on a finer mesh, if the error on the one it has is above the tolerance, or
+    /// above `most`.
     ///
     /// # Errors
     /// Where that cannot be.
@@ -125,18 +132,21 @@ pub trait Equations {
         x: &Self::State,
         t: f64,
         along: &Direction<Self::Change>,
+        most: f64,
     ) -> Result<Option<Self::State>, Failed>;
 
-    /// The error of the parameter at a branch point on this mesh, from a direction in which a branch leaves it.
+    /// The error of the parameter at a branch point on the mesh of a state beside it, in a direction in which a branch leaves it, and
+    /// that state on a finer mesh, if the error is above `tolerance`.
     ///
     /// # Errors
     /// Where that cannot be.
-    fn parameter_error(
+    fn resolved(
         &mut self,
         x: &Self::State,
         t: f64,
         across: &Direction<Self::Change>,
-    ) -> Result<f64, Failed>;
+        tolerance: f64,
+    ) -> Result<(f64, Option<Self::State>), Failed>;
 
     /// The state on a mesh twice as fine, if it has one.
     ///

@@ -9,8 +9,8 @@ use super::equations::{Direction, Equations, Failed, Stability, dot, plus, unit}
 use super::locus::Plane;
 use crate::InvalidInput;
 use crate::boundary::{
-    Bordered, Correction, Defects, Failure, Family, Iterate, Layout, Line, Mesh, Problem, Spring, Stepper,
-    System, defects, goal, refined, transferred,
+    Bordered, Correction, Defects, Estimate, Failure, Family, Iterate, Layout, Line, Mesh, Problem, Spring,
+    Stepper, System, defects, goal, refined, transferred,
 };
 use crate::section::Strain;
 
@@ -180,6 +180,17 @@ impl Equations for Held {
         HeldState { nodes: Arc::clone(&x.nodes), x: x.x.moved(change, factor, &system.units) }
     }
 
+    fn difference(&mut self, from: &HeldState, to: &HeldState) -> Correction {
+        let t = self.at.as_ref().map_or(0.0, |(t, _)| *t);
+        let Ok(system) = self.system(from, t) else { return no_direction().x };
+        let x = from.x.difference(&to.x, &system.units);
+        self.without_motions(Direction { x, t: 0.0 }).x
+    }
+
+    fn added(&self, first: &Correction, then: &Correction) -> Correction {
+        first.before(then)
+    }
+
     fn settled(&mut self, mut x: HeldState, t: f64) -> Result<HeldState, Failed> {
         let system = self.system(&x, t)?;
         system.settle(&mut x.x, 1.0);
@@ -313,6 +324,7 @@ impl Equations for Held {
         x: &HeldState,
         t: f64,
         along: &Direction<Correction>,
+        most: f64,
     ) -> Result<Option<HeldState>, Failed> {
         self.linearise(x, t, Some(along))?;
         let Some(defects) = self.defects(x)? else { return Ok(None) };
@@ -324,25 +336,31 @@ impl Equations for Held {
         let system = self.system(x, t)?;
         let mut estimated = defects.estimate(&error.x, &system.mesh.problem);
         estimated.error = estimated.error.max(error.t.abs());
-        if estimated.error <= tolerance {
+        if estimated.error <= tolerance.min(most) {
             return Ok(None);
         }
-        let nodes = refined(&system.mesh, &estimated, MARGIN * tolerance);
-        if nodes.len() > MOST_ELEMENTS {
-            return Err(Failed::Fine(nodes.len()));
-        }
-        Ok(Some(transferred_to(&system.mesh, &x.x, nodes, degree)?))
+        finer(&system.mesh, x, &estimated, (MARGIN * tolerance).min(0.5 * most), degree).map(Some)
     }
 
-    fn parameter_error(
+    fn resolved(
         &mut self,
         x: &HeldState,
         t: f64,
         across: &Direction<Correction>,
-    ) -> Result<f64, Failed> {
+        tolerance: f64,
+    ) -> Result<(f64, Option<HeldState>), Failed> {
         self.linearise(x, t, Some(across))?;
-        let defects = self.defects(x)?;
-        Ok(defects.map_or(0.0, |defects| self.error_for(defects.gaps).t))
+        let Some(defects) = self.defects(x)? else { return Ok((0.0, None)) };
+        let moved = self.error_for(defects.gaps.clone());
+        let error = moved.t.abs();
+        if error <= tolerance {
+            return Ok((error, None));
+        }
+        let degree = self.degree;
+        let system = self.system(x, t)?;
+        let mut estimated = defects.estimate(&moved.x, &system.mesh.problem);
+        estimated.error = error;
+        Ok((error, Some(finer(&system.mesh, x, &estimated, MARGIN * tolerance, degree)?)))
     }
 
     fn doubled(&mut self, x: &HeldState, t: f64) -> Result<Option<HeldState>, Failed> {
@@ -403,6 +421,21 @@ impl Equations for Held {
         let strains = vec![soft; x.x.strains.len()];
         Some(Direction { x: Correction { nodes, strains, slack: Default::default() }, t: 0.0 })
     }
+}
+
+/// The state on a mesh on which its error meets a tolerance.
+fn finer(
+    mesh: &Mesh,
+    x: &HeldState,
+    estimated: &Estimate,
+    tolerance: f64,
+    degree: usize,
+) -> Result<HeldState, Failed> {
+    let nodes = refined(mesh, estimated, tolerance);
+    if nodes.len() > MOST_ELEMENTS {
+        return Err(Failed::Fine(nodes.len()));
+    }
+    Ok(transferred_to(mesh, &x.x, nodes, degree)?)
 }
 
 /// The state on a mesh of these nodes.

@@ -1,8 +1,10 @@
 //! Special points between two points of a branch.
 
 use super::branch::{Limits, SpecialKind};
-use super::correct::{Corrected, DirectionOf, Guess, PointOf, corrected};
-use super::equations::{Direction, Equations, Failed, Stability, dot, unit};
+use super::correct::{
+    Corrected, DirectionOf, EXACTLY, Guess, Point, PointOf, arclength, corrected, difference,
+};
+use super::equations::{Direction, Equations, Failed, Stability, dot, plus, scaled, unit};
 
 /// A special point that was found.
 pub struct Found<E: Equations> {
@@ -68,23 +70,9 @@ fn between<E: Equations>(
     depth: usize,
     found: &mut Vec<Found<E>>,
 ) -> Result<(), Failed> {
+    let Some((kind, multiplicity)) = change(a, b) else { return Ok(()) };
     let unstable = [a, b].map(|point| point.stability.section_index);
     let turns = a.along.t * b.along.t < 0.0;
-    let index = [a, b].map(|point| point.stability.index);
-    let change = index[0].zip(index[1]).map(|(a, b)| b as isize - a as isize);
-    let (kind, multiplicity) = if unstable[0] != unstable[1] {
-        (SpecialKind::SectionInstability, unstable[0].abs_diff(unstable[1]))
-    } else {
-        match (turns, change) {
-            (true, None | Some(1 | -1)) => (SpecialKind::Fold, 1),
-            (true, Some(0)) => (SpecialKind::BranchPoint, 1),
-            // Without a potential the sign of the determinant tells of an odd number; beyond a section instability it changes with
-            // every section.
-            (false, None) if unstable == [0, 0] && sign_changes(a, b) => (SpecialKind::BranchPoint, 1),
-            (false, None | Some(0)) => return Ok(()),
-            (_, Some(change)) => (SpecialKind::BranchPoint, change.unsigned_abs()),
-        }
-    };
     // Several in one interval are told apart by halves of it.
     let several = depth < DEEPEST && turns && (unstable[0] != unstable[1] || multiplicity > 1);
     if several && let Some(middle) = at(equations, a, b, 0.5 * (b.s - a.s)) {
@@ -107,8 +95,32 @@ fn between<E: Equations>(
     right.map_or(Ok(()), |right| between(equations, &right, b, limits, depth + 1, found))
 }
 
+/// What changes between two points, and by how much the index, or that of sections.
+fn change<S, C>(a: &Point<S, C>, b: &Point<S, C>) -> Option<(SpecialKind, usize)> {
+    let unstable = [a, b].map(|point| point.stability.section_index);
+    if unstable[0] != unstable[1] {
+        return Some((SpecialKind::SectionInstability, unstable[0].abs_diff(unstable[1])));
+    }
+    let turns = a.along.t * b.along.t < 0.0;
+    let index = a.stability.index.zip(b.stability.index);
+    match (turns, index.map(|(a, b)| b.abs_diff(a))) {
+        (true, None | Some(1)) => Some((SpecialKind::Fold, 1)),
+        (true, Some(0)) => Some((SpecialKind::BranchPoint, 1)),
+        // Without a potential the sign of the determinant tells of an odd number; beyond a section instability it changes with
+        // every section.
+        (false, None) => (unstable == [0, 0] && sign_changes(a, b)).then_some((SpecialKind::BranchPoint, 1)),
+        (false, Some(0)) => None,
+        (_, Some(change)) => Some((SpecialKind::BranchPoint, change)),
+    }
+}
+
+/// Whether there is a special point between two, other than values of the parameter.
+pub fn unlike<S, C>(a: &Point<S, C>, b: &Point<S, C>) -> bool {
+    change(a, b).is_some()
+}
+
 /// Whether the determinant has another sign, where it is known.
-fn sign_changes<S, C>(a: &super::Point<S, C>, b: &super::Point<S, C>) -> bool {
+fn sign_changes<S, C>(a: &Point<S, C>, b: &Point<S, C>) -> bool {
     let signs = a.stability.determinant.zip(b.stability.determinant);
     signs.is_some_and(|(a, b)| a.sign * b.sign < 0.0)
 }
@@ -116,30 +128,23 @@ fn sign_changes<S, C>(a: &super::Point<S, C>, b: &super::Point<S, C>) -> bool {
 /// How far beside a special point, of the interval it was found in, others are not told from it.
 const ASIDE: f64 = 1e-5;
 
-/// The point a `length` from `a` toward `b`.
+/// The point a `length` from `a` toward `b`, across the tangent that turns from one to the other.
 pub fn at<E: Equations>(
     equations: &mut E,
     a: &PointOf<E>,
     b: &PointOf<E>,
     length: f64,
 ) -> Option<PointOf<E>> {
-    let across = if length <= 0.5 * (b.s - a.s) { &a.along } else { &b.along };
-    at_across(equations, a, b, length, across)
-}
-
-/// The same, in the plane across a direction.
-fn at_across<E: Equations>(
-    equations: &mut E,
-    a: &PointOf<E>,
-    b: &PointOf<E>,
-    length: f64,
-    across: &DirectionOf<E>,
-) -> Option<PointOf<E>> {
-    let whole = b.s - a.s;
-    // From the nearer end, along the tangent that turns from one to the other.
-    let (from, to, step) = if length <= 0.5 * whole { (a, b, length) } else { (b, a, length - whole) };
-    let mut point = stepped_along(equations, (from, to), (step, whole), across, a)?.0;
-    point.s = a.s + length;
+    let part = length / (b.s - a.s);
+    let (from, to) = if part <= 0.5 { (a, b) } else { (b, a) };
+    let across = if equations.on_one_mesh(&a.x, &b.x) {
+        plus(equations, &scaled(equations, &a.along, 1.0 - part), part, &b.along)
+    } else {
+        from.along.clone()
+    };
+    let s = a.s + length;
+    let mut point = stepped_along(equations, (from, to), s - from.s, &across, a)?.0;
+    point.s = s;
     Some(point)
 }
 
@@ -152,31 +157,47 @@ fn in_plane<E: Equations>(
     across: &DirectionOf<E>,
     sense: &PointOf<E>,
 ) -> Option<PointOf<E>> {
-    let step = (place - from.s) / dot(equations, across, &from.along);
-    let whole = (to.s - from.s).abs().max(step.abs());
-    let (mut point, moved) = stepped_along(equations, (from, to), (step, whole), across, sense)?;
+    let (mut point, moved) = stepped_along(equations, (from, to), place - from.s, across, sense)?;
     point.s = from.s + moved;
     Some(point)
 }
 
-/// A step from one of two points, along the tangent that turns to that at the other, corrected across a direction: the point, and how
-/// far it is along that direction.
+/// A step from one of two points toward, or away from, the other, corrected across a direction: the point, and how far it is along that
+/// direction.
 fn stepped_along<E: Equations>(
     equations: &mut E,
     (from, to): (&PointOf<E>, &PointOf<E>),
-    (step, whole): (f64, f64),
+    step: f64,
     across: &DirectionOf<E>,
     sense: &PointOf<E>,
 ) -> Option<(PointOf<E>, f64)> {
-    let turning = if equations.on_one_mesh(&from.x, &to.x) { 0.5 * step * step.abs() / whole } else { 0.0 };
-    let parts = [(step - turning, &from.along.x), (turning, &to.along.x)];
-    let change = equations.sum(if turning == 0.0 { &parts[..1] } else { &parts });
-    let x = equations.moved(&from.x, &change, 1.0);
-    let ahead = (step - turning) * from.along.t + turning * to.along.t;
-    let moved = dot(equations, across, &Direction { x: change, t: ahead });
+    let change = if equations.on_one_mesh(&from.x, &to.x) && to.s != from.s {
+        on_cubic(equations, from, to, step / (to.s - from.s))
+    } else {
+        scaled(equations, &from.along, step)
+    };
+    let x = equations.moved(&from.x, &change.x, 1.0);
+    let moved = dot(equations, across, &change);
     equations.expect_motions(Some(from.stability.free_motions));
-    let guess = Guess { x, t: from.t + ahead, across: Some(across), sense: Some(&sense.along) };
-    Some((corrected(equations, guess, 1e-11, true).ok()?.point, moved))
+    let guess = Guess { x, t: from.t + change.t, across: Some(across), sense: Some(&sense.along) };
+    Some((corrected(equations, guess, 1e-11, EXACTLY).ok()?.point, moved))
+}
+
+/// The change from a point to part of the way to another, on Hermite's cubic that has their tangents.
+fn on_cubic<E: Equations>(
+    equations: &mut E,
+    from: &PointOf<E>,
+    to: &PointOf<E>,
+    part: f64,
+) -> DirectionOf<E> {
+    let change = difference(equations, from, to);
+    let arriving = equations.added(&change.x, &to.along.x);
+    let length = arclength(equations, [from, to], &change).copysign(to.s - from.s);
+    let (left, square) = (1.0 - part, part * part);
+    let weights = [length * part * left * left, square * (3.0 - 2.0 * part), -length * square * left];
+    let parts = [(weights[0], &from.along.x), (weights[1], &change.x), (weights[2], &arriving)];
+    let t = weights[0] * from.along.t + weights[1] * change.t + weights[2] * to.along.t;
+    Direction { x: equations.sum(&parts), t }
 }
 
 /// The point between at this value of the parameter.
@@ -199,7 +220,7 @@ pub fn at_value<E: Equations>(
         if by_newton && (middle.t - value).abs() < 0.1 {
             by_newton = false;
             let guess = Guess { x: middle.x.clone(), t: value, across: None, sense: Some(&middle.along) };
-            let there = corrected(equations, guess, 1e-11, true).ok().filter(|c| c.first < b.s - a.s);
+            let there = corrected(equations, guess, 1e-11, EXACTLY).ok().filter(|c| c.first < b.s - a.s);
             if let Some(Corrected { mut point, .. }) = there {
                 (point.t, point.s) = (value, middle.s);
                 return Some(point);
@@ -250,10 +271,25 @@ fn located<E: Equations>(
     };
     let index = |point: &PointOf<E>| point.stability.index.unwrap_or(0);
     let (mut low, mut high) = (a.clone(), b.clone());
-    // By halves to where rotations add as vectors do.
+    // To where rotations add as vectors do: a little beyond where the change is expected, or by halves.
+    let (mut seen, mut lengths) = (vec![low.clone(), high.clone()], [f64::INFINITY; 2]);
     while high.s - low.s > SHORT {
-        let middle = at(equations, &low, &high, 0.5 * (high.s - low.s))?;
-        if before(&middle) { low = middle } else { high = middle }
+        let length = high.s - low.s;
+        let multiplicity = index(&low).abs_diff(index(&high)).max(1);
+        let known: Vec<_> =
+            seen.iter().rev().take(MEMORY).map(|point| (point.s, function(point, multiplicity))).collect();
+        let place = root(&known).0;
+        let next = place + BEYOND.copysign(0.5 * (low.s + high.s) - place);
+        let good = low.s < next && next < high.s && length <= 0.5 * lengths[0];
+        let ahead = if good { next - low.s } else { 0.5 * length };
+        lengths = [lengths[1], length];
+        let middle = at(equations, &low, &high, ahead)?;
+        if before(&middle) {
+            low = middle.clone()
+        } else {
+            high = middle.clone()
+        }
+        seen.push(middle);
     }
     // Else what changes, changes from one branch to another: also beyond a fold, where the index is another one.
     let from_the_side = turns && start.index == b.stability.index;
@@ -268,8 +304,9 @@ fn located<E: Equations>(
     let mut lengths = [f64::INFINITY; 2];
     let mut previous = f64::INFINITY;
     let mut spread = SPREAD.min(0.1 * (b.s - a.s));
-    // The least error so far, its place, and how near values were taken.
-    let mut best = (f64::INFINITY, 0.0, spread);
+    // The least error so far, its place, and how many values it is of; the least with values taken as near as now, and the two times before, and whether that helped.
+    let mut best = (f64::INFINITY, 0.0, 0);
+    let (mut least, mut rounding) = ([f64::INFINITY; 3], false);
     for _ in 0..MOST {
         let length = high.s - low.s;
         let multiplicity = index(&low).abs_diff(index(&high)).max(1);
@@ -283,26 +320,36 @@ fn located<E: Equations>(
         let error = error.max((place - previous).abs());
         previous = place;
         let inside = low.s - NEAREST < place && place < high.s + NEAREST;
-        if tried.len() >= MEMORY && inside && error < best.0 {
-            best = (error, place, spread);
+        if tried.len() >= MEMORY && inside {
+            least[2] = error.min(least[2]);
+            if error < best.0 {
+                best = (error, place, tried.len());
+            }
         }
         // Around the root, not at it: there the equations are singular, and another branch is as near.
         let near = tried.iter().filter(|point| (point.s - place).abs() < 2.0 * spread).count();
         if near >= MEMORY {
             spread *= 0.4;
+            // What does not get better nearer the root is rounding.
+            rounding = least[1].min(least[2]) > 0.5 * least[0]
+                && best.0 * a.along.t.abs().max(b.along.t.abs()) < ROUNDING;
+            least = [least[0].min(least[1]), least[2], f64::INFINITY];
         }
-        // What does not get better nearer the root is rounding.
-        let rounding = spread < 0.1 * best.2 && best.0 * a.along.t.abs().max(b.along.t.abs()) < ROUNDING;
-        if best.0 < EXACT || rounding {
+        if best.0 < EXACT.max(LOCATED * limits.tolerance) || rounding {
             if gap(equations, &low, &high) > GAP * length.abs().max(NEAREST) {
                 return None;
             }
+            // Nearer ones did not help.
+            tried.truncate(best.2);
             let apart = |point: &PointOf<E>| (point.s - best.1).abs();
             tried.sort_by(|p, q| apart(p).total_cmp(&apart(q)));
             if from_the_side && passes_by::<E>(&tried[..tried.len().min(MEMORY)], best.1, limits) {
                 return None;
             }
-            return Some(between_two(equations, &tried[1], &tried[0], best.1, &a.along));
+            // Of two that are too near to each other rounding is what they tell.
+            let near = &tried[0];
+            let other = tried.iter().find(|other| (other.s - near.s).abs() > 0.5 * apart(near));
+            return Some(between_two(equations, other.unwrap_or(&tried[1]), near, best.1, &a.along));
         }
         if length < NEAREST {
             let last = &tried[tried.len().saturating_sub(MEMORY)..];
@@ -362,8 +409,9 @@ fn gap<E: Equations>(equations: &mut E, a: &PointOf<E>, b: &PointOf<E>) -> f64 {
 
 /// The same over how far they are apart along a branch, at most.
 const GAP: f64 = 3.0;
-/// An interval in which places are measured along its first tangent.
+/// An interval in which places are measured along its first tangent, and how far beyond the place of a change it is to end.
 const SHORT: f64 = 0.05;
+const BEYOND: f64 = 0.4 * SHORT;
 /// Values by which a root is interpolated, and how far around it they are taken.
 const MEMORY: usize = 5;
 const SPREAD: f64 = 1e-3;
@@ -416,8 +464,9 @@ fn between_two<E: Equations>(
     point
 }
 
-/// Estimate of an error of a search that is small enough.
+/// Estimate of an error of a search that is small enough, and the same of the tolerance of points.
 const EXACT: f64 = 2e-12;
+const LOCATED: f64 = 0.05;
 /// Of the parameter, where rounding keeps it larger.
 const ROUNDING: f64 = 1e-10;
 /// An interval that is no longer divided.

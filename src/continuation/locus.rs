@@ -4,7 +4,7 @@
 //! point located between. Where the curve is steep the two parameters change places.
 
 use super::branch::{Ended, Limits, SpecialKind};
-use super::correct::{DirectionOf, Guess, PointOf, corrected};
+use super::correct::{DirectionOf, EXACTLY, Guess, PointOf, corrected};
 use super::equations::{Direction, Equations, Failed, dot};
 use super::locate::{Found, special_points};
 use super::switch::across;
@@ -158,7 +158,7 @@ fn near<E: Plane>(
             let t = last.t + shift + s * last.along.t;
             equations.expect_motions(Some(last.stability.free_motions));
             let guess = Guess { x, t, across: Some(&last.along), sense: Some(&last.along) };
-            let mut point = corrected(equations, guess, limits.tolerance, true).ok()?.point;
+            let mut point = corrected(equations, guess, limits.tolerance, EXACTLY).ok()?.point;
             point.s = s;
             Some(point)
         });

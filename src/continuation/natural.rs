@@ -134,6 +134,14 @@ impl Equations for Natural {
         [x[0] + factor * change[0], x[1] + factor * change[1]]
     }
 
+    fn difference(&mut self, from: &[f64; 2], to: &[f64; 2]) -> [f64; 2] {
+        [to[0] - from[0], to[1] - from[1]]
+    }
+
+    fn added(&self, _: &[f64; 2], then: &[f64; 2]) -> [f64; 2] {
+        *then
+    }
+
     fn settled(&mut self, x: [f64; 2], _: f64) -> Result<[f64; 2], Failed> {
         Ok(x)
     }
@@ -220,12 +228,24 @@ impl Equations for Natural {
         vec![x[0] * x[0], x[1] * x[1]]
     }
 
-    fn refined(&mut self, _: &[f64; 2], _: f64, _: &Direction<[f64; 2]>) -> Result<Option<[f64; 2]>, Failed> {
+    fn refined(
+        &mut self,
+        _: &[f64; 2],
+        _: f64,
+        _: &Direction<[f64; 2]>,
+        _: f64,
+    ) -> Result<Option<[f64; 2]>, Failed> {
         Ok(None)
     }
 
-    fn parameter_error(&mut self, _: &[f64; 2], _: f64, _: &Direction<[f64; 2]>) -> Result<f64, Failed> {
-        Ok(0.0)
+    fn resolved(
+        &mut self,
+        _: &[f64; 2],
+        _: f64,
+        _: &Direction<[f64; 2]>,
+        _: f64,
+    ) -> Result<(f64, Option<[f64; 2]>), Failed> {
+        Ok((0.0, None))
     }
 
     fn doubled(&mut self, _: &[f64; 2], _: f64) -> Result<Option<[f64; 2]>, Failed> {

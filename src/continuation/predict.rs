@@ -1,18 +1,19 @@
-//! The next point of a branch, from the tangents at the last ones: Adams and Bashforth's formulas for uneven steps.
+//! The next point of a branch, by the polynomial through the last ones that has the last tangent.
 
-/// Weights `w_j` of the tangents at `places[j]`, the last of which the step of `length` starts from:
-/// `x(s + length) = x(s) + sum_j w_j x'(places[j])` to the order of their number, at most four.
+/// Weights of the states at `places`, the last of which the step of `length` starts from, relative to that state, and of the tangent there:
+/// `x(s + length) - x(s) = sum_j w_j (x(places[j]) - x(s)) + w x'(s)` to the order of their number.
 #[must_use]
-pub fn weights(places: &[f64], length: f64) -> Vec<f64> {
-    let Some(&from) = places.last() else { return Vec::new() };
-    // The Lagrange polynomials, of degree at most three, integrated by two Gauss points.
-    let gauss = 0.5 / 3f64.sqrt();
-    let points = [0.5 - gauss, 0.5 + gauss].map(|y| from + length * y);
-    let lagrange = |j: usize, s: f64| -> f64 {
-        let others = places.iter().enumerate().filter(|(k, _)| *k != j);
-        others.map(|(_, &other)| (s - other) / (places[j] - other)).product()
+pub fn weights(places: &[f64], length: f64) -> (Vec<f64>, f64) {
+    let Some((&from, before)) = places.split_last() else { return (Vec::new(), length) };
+    // The polynomials that are one at one of these places, and zero at the others and twice at the last.
+    let lagrange = |j: usize| -> f64 {
+        let own = before[j] - from;
+        let others = before.iter().enumerate().filter(|(k, _)| *k != j);
+        others.map(|(_, &other)| (from + length - other) / (before[j] - other)).product::<f64>()
+            * (length / own).powi(2)
     };
-    (0..places.len()).map(|j| points.map(|s| 0.5 * length * lagrange(j, s)).iter().sum()).collect()
+    let tangent = before.iter().map(|&other| 1.0 + length / (from - other)).product::<f64>() * length;
+    ((0..before.len()).map(lagrange).collect(), tangent)
 }
 
 #[cfg(test)]
@@ -20,14 +21,17 @@ mod tests {
     use super::weights;
 
     #[test]
-    fn integrates_cubics() {
+    fn continues_polynomials() {
         let places = [-1.0, -0.3, 0.1, 0.4];
         for count in 1..=4 {
             let places = &places[4 - count..];
-            for power in 0..count as i32 {
-                let sum: f64 = weights(places, 0.7).iter().zip(places).map(|(w, s)| w * s.powi(power)).sum();
-                let exact = (1.1f64.powi(power + 1) - 0.4f64.powi(power + 1)) / f64::from(power + 1);
-                assert!((sum - exact).abs() < 1e-14);
+            for power in 1..=count as i32 {
+                let value = |s: f64| (s + 2.0).powi(power);
+                let (weights, tangent) = weights(places, 0.7);
+                let change = |s: f64| value(s) - value(0.4);
+                let sum: f64 = weights.iter().zip(places).map(|(w, &s)| w * change(s)).sum();
+                let slope = f64::from(power) * 2.4f64.powi(power - 1);
+                assert!((sum + tangent * slope - change(1.1)).abs() < 1e-12);
             }
         }
     }

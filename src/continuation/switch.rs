@@ -1,7 +1,7 @@
 //! Onto the branches that meet at a branch point.
 
 use super::branch::Limits;
-use super::correct::{DirectionOf, Guess, PointOf, corrected};
+use super::correct::{DirectionOf, EXACTLY, Guess, PointOf, corrected};
 use super::equations::{Equations, dot, plus, scaled, unit};
 
 /// First points of the branches that leave a branch point along others than the one it was found on, one of mirror images.
@@ -12,6 +12,8 @@ pub struct Leaving<E: Equations> {
     pub mirrored: bool,
 }
 
+/// Change of the parameter along a unit direction below which it is from the side.
+pub const FROM_THE_SIDE: f64 = 1e-3;
 /// The step off the branch, and how often it is halved where Newton's method fails.
 const STEP: f64 = 0.05;
 const HALVINGS: usize = 6;
@@ -30,7 +32,11 @@ pub fn leaving<E: Equations>(
     let across = across(equations, at, multiplicity);
     let directions: Vec<DirectionOf<E>> = match across.as_slice() {
         [] => Vec::new(),
-        [one] => vec![one.clone(), scaled(equations, one, -1.0)],
+        // Toward greater parameters first, where the two differ in that.
+        [one] => {
+            let sense = if one.t < -FROM_THE_SIDE { -1.0 } else { 1.0 };
+            vec![scaled(equations, one, sense), scaled(equations, one, -sense)]
+        }
         // A free motion turns one into all others.
         [one, ..] if at.stability.free_motions > 0 => vec![one.clone()],
         [first, second, ..] => (0..SPOKES)
@@ -147,7 +153,7 @@ pub fn stepped<E: Equations>(
             Guess { x, t: at.t + step * direction.t, across: Some(direction), sense: Some(direction) };
         // A branch may have motions that the one it leaves has not.
         equations.expect_motions(None);
-        if let Ok(done) = corrected(equations, guess, limits.tolerance, true)
+        if let Ok(done) = corrected(equations, guess, limits.tolerance, EXACTLY)
             && done.first < 0.5 * step
             && (0.0..=1.0).contains(&done.point.t)
         {

@@ -112,6 +112,19 @@ pub fn crept_from(
     spent: &mut Spent,
 ) -> Result<(Mesh, Reached), InvalidInput> {
     kick(&mesh, &mut x)?;
+    crept_on(settings, mesh, x, spent)
+}
+
+/// Creeps on from a shape near the goal, on a finer mesh perhaps, on which it is none of rest.
+///
+/// # Errors
+/// Where a section is refused.
+pub fn crept_on(
+    settings: &Settings,
+    mesh: Mesh,
+    x: Iterate,
+    spent: &mut Spent,
+) -> Result<(Mesh, Reached), InvalidInput> {
     let path = Path::at_goal(&mesh, x);
     let reached = Reached { fraction: 1.0, ..Reached::start(&path) };
     crept_along(settings, mesh, path, reached, 1.0, spent)

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::adapt::{estimate, refined, transferred};
 use super::check;
-use super::creep::crept;
+use super::creep::{crept, crept_on};
 use super::ends::Hold;
 use super::fallen::{fallen, is_unstable};
 use super::iterate::{Iterate, Layout};
@@ -181,7 +181,11 @@ pub fn solve(
         };
         let solved = if reached.failure.is_none() {
             let before = reached.before;
-            let mut solved = adapted(settings, mesh, reached.x, &mut spent)?;
+            let mut solved = if attempt.gait == Gait::Creeping {
+                crept_and_adapted(settings, mesh, reached.x, &mut spent)?
+            } else {
+                adapted(settings, mesh, reached.x, &mut spent)?
+            };
             // What a mesh finds and a finer one does not confirm is no state: the one before is.
             if let (Status::Diverged, Some((fraction, nodes, x))) = (solved.report.status, before) {
                 solved = Solved { nodes, x, report: Report { fraction, ..solved.report } };
@@ -246,9 +250,9 @@ pub fn followed(
     }
 }
 
-/// Factorised elements of an attempt, and of all, that are too many: some three and seven seconds.
-const MOST_WORK: usize = 500_000;
-const MOST_WORK_OF_ALL: usize = 1_200_000;
+/// Factorised elements of an attempt, and of all, that are too many: some two and five seconds.
+const MOST_WORK: usize = 400_000;
+const MOST_WORK_OF_ALL: usize = 900_000;
 /// Factorisations that a finer mesh takes at least.
 const FEWEST: usize = 4;
 /// Error that a mesh on a careful way is made for.
@@ -337,6 +341,33 @@ pub fn unfinished(mesh: Mesh, reached: Reached, spent: &Spent) -> Solved {
     let report = spent.report(status, reason, reached.fraction, reached.norms);
     Solved { nodes: mesh.nodes, x: reached.x, report }
 }
+
+/// The same where the ribbon creeps on when a finer mesh does not confirm what it came to on a coarse one.
+fn crept_and_adapted(
+    settings: &Settings,
+    mesh: Mesh,
+    x: Iterate,
+    spent: &mut Spent,
+) -> Result<Solved, InvalidInput> {
+    let mut problem = Arc::clone(&mesh.problem);
+    let mut solved = adapted(settings, mesh, x, spent)?;
+    for _ in 0..MOST_RETURNS {
+        if solved.report.status != Status::Diverged {
+            break;
+        }
+        let mesh = Mesh::new(&problem, solved.nodes.clone(), settings.degree)?;
+        let (mesh, reached) = crept_on(settings, mesh, solved.x.clone(), spent)?;
+        if reached.failure.is_some() {
+            break;
+        }
+        problem = Arc::clone(&mesh.problem);
+        solved = adapted(settings, mesh, reached.x, spent)?;
+    }
+    Ok(solved)
+}
+
+/// How often a ribbon creeps on after a finer mesh.
+const MOST_RETURNS: usize = 4;
 
 /// Meshes until the estimated error is below the tolerance.
 pub fn adapted(

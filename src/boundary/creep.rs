@@ -183,6 +183,10 @@ fn creep(
 ) -> Result<Pause, InvalidInput> {
     let control = Control { tolerance: 1e-6, iterations: 12, least_step: 1e-2 };
     loop {
+        if settings.interrupted.is_some_and(|asks| asks()) {
+            reached.failure = Some(Failed::Interrupted);
+            return Ok(Pause::Failed);
+        }
         let t = (reached.fraction + pace.step).min(1.0);
         let targets = viscous(path, system, reached, t, pace.drag);
         let ended = newton(system, reached.x.clone(), &targets, &control);
@@ -199,9 +203,8 @@ fn creep(
             let goes_on = pace.slower(t - reached.fraction)
                 && reached.steps < MOST_STEPS
                 && system.factorisations * system.mesh.elements() < work;
-            let stopped = settings.interrupted.is_some_and(|asks| asks());
-            if stopped || !goes_on {
-                reached.failure = Some(if stopped { Failed::Interrupted } else { failure });
+            if !goes_on {
+                reached.failure = Some(failure);
                 return Ok(Pause::Failed);
             }
             continue;

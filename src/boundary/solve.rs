@@ -357,6 +357,9 @@ fn crept_and_adapted(
         }
         let mesh = Mesh::new(&problem, solved.nodes.clone(), settings.degree)?;
         let (mesh, reached) = crept_on(settings, mesh, solved.x.clone(), spent)?;
+        if reached.failure == Some(Failed::Interrupted) {
+            return Ok(unfinished(mesh, reached, spent));
+        }
         if reached.failure.is_some() {
             break;
         }

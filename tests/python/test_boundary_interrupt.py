@@ -34,7 +34,7 @@ def raising(exception, seconds):
 
 
 def soft_helix():
-    # pulled: the solver tries all it knows, and gives up
+    # pulled: its sections go over to other phases, one after the other, a long way
     growth = rb.growth.edge(0.06) + rb.growth.chiral(0.04)
     rb.solve(rb.Scene(rb.Ribbon(10.0, 1.0, 0.1), growth, end=rb.Free(force=(0.0, 0.0, 1e-3))))
 
@@ -53,14 +53,12 @@ def deflated():
     rb.find_states(ARCH, most=20)
 
 
+@pytest.mark.filterwarnings("ignore:the shape jumps")
 @pytest.mark.parametrize("work", [soft_helix, traced, located, deflated])
 @pytest.mark.parametrize("exception", [KeyboardInterrupt, OutOfTimeError])
 def test_what_a_handler_raises_ends_the_work(work, exception):
     start = time.perf_counter()
-    try:
-        work()
-    except rb.ConvergenceError:
-        assert work is soft_helix
+    work()
     whole = time.perf_counter() - start
     assert whole > 0.02  # else there is nothing to interrupt
     start = time.perf_counter()

@@ -19,7 +19,7 @@ use super::known::Known;
 use super::mesh::Mesh;
 use super::newton::{Control, Ended, Failed, newton};
 use super::path::{LARGEST_ERROR, Path, Reached, largest_turn};
-use super::solve::{Settings, Spent, new_system};
+use super::solve::{Settings, Spent, new_system, work};
 use super::system::{System, Targets};
 use crate::InvalidInput;
 use crate::section::Strain;
@@ -172,14 +172,14 @@ fn crept_along(
     }
 }
 
-/// Creeps on from what was reached, as far as the mesh will do and no more than so much work.
+/// Creeps on from what was reached, as far as the mesh will do and no more than this much work.
 fn creep(
     path: &Path,
     system: &mut System,
     reached: &mut Reached,
     pace: &mut Pace,
     settings: &Settings,
-    work: usize,
+    most_work: usize,
 ) -> Result<Pause, InvalidInput> {
     let control = Control { tolerance: 1e-6, iterations: 12, least_step: 1e-2 };
     loop {
@@ -200,9 +200,8 @@ fn creep(
                 }
                 kick(&system.mesh, &mut reached.x)?;
             }
-            let goes_on = pace.slower(t - reached.fraction)
-                && reached.steps < MOST_STEPS
-                && system.factorisations * system.mesh.elements() < work;
+            let goes_on =
+                pace.slower(t - reached.fraction) && reached.steps < MOST_STEPS && work(system) < most_work;
             if !goes_on {
                 reached.failure = Some(failure);
                 return Ok(Pause::Failed);

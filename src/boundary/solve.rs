@@ -96,11 +96,13 @@ enum Gait {
 }
 
 /// What is tried in turn.
-const ATTEMPTS: [Attempt; 8] = [
+const ATTEMPTS: [Attempt; 10] = [
     Attempt { finer: 1, imperfection: 1.0, from: From::Choice(0), gait: Gait::Quick },
     Attempt { finer: 4, imperfection: 1.0, from: From::Choice(0), gait: Gait::Careful },
     Attempt { finer: 4, imperfection: 1.0, from: From::Natural, gait: Gait::Creeping },
     Attempt { finer: 4, imperfection: 1.0, from: From::Straight, gait: Gait::Creeping },
+    Attempt { finer: 8, imperfection: -3.0, from: From::Natural, gait: Gait::Creeping },
+    Attempt { finer: 8, imperfection: -3.0, from: From::Straight, gait: Gait::Creeping },
     Attempt { finer: 4, imperfection: 1.0, from: From::Choice(1), gait: Gait::Careful },
     Attempt { finer: 4, imperfection: -3.0, from: From::Choice(0), gait: Gait::Careful },
     Attempt { finer: 4, imperfection: 1.0, from: From::Choice(2), gait: Gait::Careful },
@@ -250,9 +252,9 @@ pub fn followed(
     }
 }
 
-/// Factorised elements of an attempt, and of all, that are too many: some two and five seconds.
-const MOST_WORK: usize = 400_000;
-const MOST_WORK_OF_ALL: usize = 900_000;
+/// Factorised elements of an attempt, and of all, that are too many: some two and four seconds.
+const MOST_WORK: usize = 300_000;
+const MOST_WORK_OF_ALL: usize = 700_000;
 /// Factorisations that a finer mesh takes at least.
 const FEWEST: usize = 4;
 /// Error that a mesh on a careful way is made for.
@@ -274,11 +276,18 @@ pub struct Spent {
     pub allowed: usize,
 }
 
+/// Factorised elements, those whose sections differ counted twice, for what it takes to make these.
+#[must_use]
+pub fn work(system: &System) -> usize {
+    let each = if system.mesh.problem.law.varies() { 2 } else { 1 };
+    each * system.factorisations * system.mesh.elements()
+}
+
 impl Spent {
     /// Counts the work of a mesh.
     pub fn factorised(&mut self, system: &System) {
         self.factorisations += system.factorisations;
-        self.work += system.factorisations * system.mesh.elements();
+        self.work += work(system);
     }
 
     /// Counts the steps of a way.

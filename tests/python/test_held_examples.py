@@ -1,6 +1,7 @@
 """The example scenes that are held or loaded: in balance, as symmetric as they are, and of the right size."""
 
 import math
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,7 @@ NAMES = (
     "drooping_leaf",
     "hanging_ring",
     "hanging_strip",
+    "kinked_strip",
     "moebius_band",
     "pressed_strip",
     "pulled_tendril",
@@ -29,7 +31,10 @@ NAMES = (
 @pytest.fixture(scope="module")
 def states():
     jobs = {name: read(ROOT / "examples" / f"{name}.toml") for name in NAMES}
-    return {name: rb.solve(job.scene, **job.options) for name, job in jobs.items()}
+    with warnings.catch_warnings():
+        # The kinked strip has kinks, and bends over lengths that are short for the theory.
+        warnings.filterwarnings("ignore", "the shape jumps|neglected", rb.RibbonWarning)
+        return {name: rb.solve(job.scene, **job.options) for name, job in jobs.items()}
 
 
 def test_these_are_all():

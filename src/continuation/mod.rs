@@ -7,12 +7,14 @@
 //! |---|---|
 //! | `equations` | what is to be known of a problem |
 //! | `natural`, `held` | a free section, and a ribbon that is held and loaded |
-//! | `predict`, `correct` | a step along a branch |
-//! | `branch` | a branch, as far as it is asked for |
+//! | `predict`, `correct`, `advance` | a step along a branch |
+//! | `branch` | a branch, its beginning and its ends |
+//! | `walk` | along a branch, as far as it is asked for |
 //! | `locate` | special points between two points of a branch |
 //! | `locus` | a special point as a second parameter varies |
 //! | `switch`, `diagram` | what branches off, and all branches that hang together |
 
+mod advance;
 mod branch;
 mod correct;
 mod diagram;
@@ -23,6 +25,7 @@ mod locus;
 mod natural;
 mod predict;
 mod switch;
+mod walk;
 
 pub use branch::{Branch, Ended, Limits, Special, SpecialKind, begin};
 pub use correct::{Point, reversed};

@@ -1,0 +1,105 @@
+//! A step along a branch: the next point, predicted by the last ones and corrected.
+
+use super::branch::Limits;
+use super::correct::{Corrected, Guess, PointOf, ROUGHLY, arclength, corrected, difference};
+use super::equations::{Equations, Failed, dot};
+use super::predict::weights;
+
+/// The error of a prediction that steps are made for.
+const PREDICTION: f64 = 5e-3;
+/// An error of a prediction, and a cosine of the angle between tangents, that no step may have.
+const FAR: f64 = 8.0 * PREDICTION;
+const TURN: f64 = 0.7;
+
+/// A point that a step led to.
+pub struct Advanced<E: Equations> {
+    /// The point.
+    pub point: PointOf<E>,
+    /// Whether the range of the parameter ends there.
+    pub at_end: bool,
+    /// Points that the prediction used, and its error.
+    order: usize,
+    error: f64,
+}
+
+impl<E: Equations> Advanced<E> {
+    /// The length of the next step after one of this length, by the error of the prediction.
+    pub fn next_step(&self, step: f64, limits: &Limits) -> f64 {
+        let factor = (PREDICTION / self.error.max(1e-12)).powf(1.0 / (self.order as f64 + 1.0));
+        (step * (0.9 * factor).clamp(0.3, 2.5)).min(limits.longest)
+    }
+}
+
+/// The next point, a step away, or where the range of the parameter ends.
+///
+/// # Errors
+/// Where no point is found that is the next one.
+pub fn advanced<E: Equations>(
+    equations: &mut E,
+    last: &PointOf<E>,
+    memory: &[PointOf<E>],
+    step: f64,
+    limits: &Limits,
+) -> Result<Advanced<E>, Failed> {
+    let places: Vec<f64> = memory.iter().map(|point| point.s).collect();
+    let before = &memory[..memory.len() - 1];
+    let changes: Vec<E::Change> =
+        before.iter().map(|point| equations.difference(&last.x, &point.x)).collect();
+    let predicted = |equations: &mut E, length: f64| {
+        let (weights, tangent) = weights(&places, length);
+        let mut parts: Vec<_> = weights.iter().copied().zip(&changes).collect();
+        parts.push((tangent, &last.along.x));
+        let change = equations.sum(&parts);
+        let ahead: f64 = weights.iter().zip(before).map(|(w, point)| w * (point.t - last.t)).sum();
+        (equations.moved(&last.x, &change, 1.0), last.t + ahead + tangent * last.along.t)
+    };
+    let (x, t) = predicted(equations, step);
+    let outside = |t: f64| !(0.0..=1.0).contains(&t);
+    if outside(t) && (t - last.t) * last.along.t > 0.0 {
+        // To the end of the range, exactly.
+        let end = if t > 0.5 { 1.0 } else { 0.0 };
+        if last.t == end {
+            return Err(Failed::Jumped);
+        }
+        let mut length = step * (end - last.t) / (t - last.t);
+        let mut guess = predicted(equations, length);
+        for _ in 0..4 {
+            let slope = (guess.1 - last.t) / length;
+            length = (length + (end - guess.1) / slope).clamp(0.0, step);
+            guess = predicted(equations, length);
+        }
+        let guess = Guess { x: guess.0, t: end, across: None, sense: Some(&last.along) };
+        let Corrected { mut point, first } = corrected(equations, guess, limits.tolerance, ROUGHLY)?;
+        point.t = end;
+        near(equations, last, &point, first, length)?;
+        point.s = last.s + arc(equations, last, &point);
+        return Ok(Advanced { point, order: memory.len(), error: first, at_end: true });
+    }
+    let guess = Guess { x, t, across: Some(&last.along), sense: Some(&last.along) };
+    let Corrected { mut point, first } = corrected(equations, guess, limits.tolerance, ROUGHLY)?;
+    near(equations, last, &point, first, step)?;
+    if outside(point.t) {
+        // A shorter step meets the end.
+        return Err(Failed::Jumped);
+    }
+    point.s = last.s + arc(equations, last, &point);
+    Ok(Advanced { point, order: memory.len(), error: first, at_end: false })
+}
+
+/// The arclength from a point to the next.
+fn arc<E: Equations>(equations: &mut E, from: &PointOf<E>, to: &PointOf<E>) -> f64 {
+    let change = difference(equations, from, to);
+    arclength(equations, [from, to], &change)
+}
+
+/// Refuses a point that is not the next one.
+fn near<E: Equations>(
+    equations: &E,
+    last: &PointOf<E>,
+    point: &PointOf<E>,
+    first: f64,
+    step: f64,
+) -> Result<(), Failed> {
+    let turned = dot(equations, &last.along, &point.along);
+    if first > FAR.min(0.5 * step) || turned < TURN { Err(Failed::Jumped) } else { Ok(()) }
+}

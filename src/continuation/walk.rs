@@ -1,0 +1,355 @@
+//! Along a branch: step by step, on meshes that are fine enough for what lies there, to where it ends.
+
+use super::advance::{Advanced, advanced};
+use super::branch::{BranchOf, Ended, Limits, Special, SpecialKind, is_closed};
+use super::correct::{EXACTLY, Guess, Point, PointOf, corrected};
+use super::equations::{Direction, Equations, Failed};
+use super::locate::{Found, special_points, unlike};
+use super::switch::{across, stepped};
+
+/// The first step.
+const FIRST_STEP: f64 = 0.02;
+/// A step that is too short, and by how much one that failed is shortened.
+const SHORTEST: f64 = 1e-7;
+const SHORTENED: f64 = 0.3;
+/// Points that a prediction uses.
+const MEMORY: usize = 4;
+/// Steps after which the mesh is looked at.
+const CHECKED: usize = 4;
+/// Looks at a mesh in a row that may be postponed.
+const MOST_POSTPONED: usize = 3;
+/// Meshes of a branch that are too many.
+const MOST_MESHES: usize = 20;
+/// Errors where there are special points, of the tolerance of points, and at most: by its third root two branches that meet may miss one
+/// another.
+const DISTINCT: f64 = 0.5;
+const MOST_DISTINCT: f64 = 1e-8;
+/// Finer meshes in a row that do not come to that: rounding keeps them.
+const MOST_SHARPENED: usize = 2;
+
+/// Whether a special point ends a branch.
+type Stop<'s, E> = dyn FnMut(&mut E, &PointOf<E>, SpecialKind) -> bool + 's;
+
+/// Follows the branch through a point along its tangent. `stop` tells whether a special point ends it.
+pub fn follow<E: Equations>(
+    equations: &mut E,
+    first: PointOf<E>,
+    limits: &Limits,
+    mut stop: impl FnMut(&mut E, &PointOf<E>, SpecialKind) -> bool,
+) -> BranchOf<E> {
+    let mut walk = Walk::from(first, limits);
+    let ended = loop {
+        if let Err(ended) = walk.turn(equations, &mut stop) {
+            break ended;
+        }
+    };
+    walk.branch.ended[1] = ended;
+    walk.branch
+}
+
+/// A branch while it is followed.
+struct Walk<'a, E: Equations> {
+    limits: &'a Limits,
+    /// What was passed.
+    branch: BranchOf<E>,
+    /// The free motions of all its points.
+    motions: usize,
+    /// The length of the next step.
+    step: f64,
+    /// The last regular points, on this mesh, by which the next is predicted.
+    memory: Vec<PointOf<E>>,
+    /// Whether the last point is where the range of the parameter ends.
+    at_end: bool,
+    /// Steps so far, and those since the mesh was looked at.
+    steps: usize,
+    since: usize,
+    /// The last point whose mesh is known to be fine enough.
+    fine: Fine<E>,
+    /// Finer meshes so far, and those in a row for the sake of what lies within the next step.
+    meshes: usize,
+    sharpened: usize,
+    /// Looks at the mesh in a row that were postponed.
+    postponed: usize,
+    /// The last branch point for which the mesh was too coarse: its parameter, and the error of that.
+    unresolved: Option<(f64, f64)>,
+}
+
+/// A point whose mesh is fine enough: its place on the branch, the points by which the next was predicted, and the step to that.
+struct Fine<E: Equations> {
+    place: usize,
+    memory: Vec<PointOf<E>>,
+    step: f64,
+}
+
+/// What a step comes to.
+enum Attempt<E: Equations> {
+    /// The next point, and the special points before it.
+    Next(Advanced<E>, Vec<Found<E>>),
+    /// A state on a finer mesh, which what lies within the step needs.
+    Coarse(E::State),
+}
+
+impl<'a, E: Equations> Walk<'a, E> {
+    /// At the first point.
+    fn from(first: PointOf<E>, limits: &'a Limits) -> Self {
+        let (step, motions) = (first.s.max(FIRST_STEP), first.stability.free_motions);
+        let memory = vec![first.clone()];
+        let branch = BranchOf::<E> {
+            points: vec![first],
+            special: Vec::new(),
+            ended: [Ended::Start, Ended::Steps],
+            origin: None,
+            mirrored: false,
+        };
+        Self {
+            limits,
+            branch,
+            motions,
+            step,
+            fine: Fine { place: 0, memory: memory.clone(), step },
+            memory,
+            at_end: false,
+            steps: 0,
+            // The first mesh is looked at, too.
+            since: CHECKED,
+            meshes: 0,
+            sharpened: 0,
+            postponed: 0,
+            unresolved: None,
+        }
+    }
+
+    /// Looks at the mesh if it is time to, and attempts a step.
+    ///
+    /// # Errors
+    /// How the branch ends, where it does.
+    fn turn(&mut self, equations: &mut E, stop: &mut Stop<'_, E>) -> Result<(), Ended> {
+        if self.meshes > MOST_MESHES {
+            return Err(Ended::Failed(Failed::Unresolved(self.meshes)));
+        }
+        if self.since >= CHECKED || self.at_end {
+            self.look_at_mesh(equations)?;
+        }
+        self.goes_on()?;
+        match self.attempt(equations) {
+            Ok(Attempt::Next(next, found)) => self.advance(equations, next, found, stop),
+            Ok(Attempt::Coarse(finer)) => {
+                self.steps += 1;
+                self.restart(equations, &finer)?;
+                // That mesh is looked at, too.
+                self.since = CHECKED;
+                Ok(())
+            }
+            Err(failed) => self.shorten(failed),
+        }
+    }
+
+    /// Notes that the mesh is fine enough for the last point, or goes back to where it was on a finer one.
+    ///
+    /// # Errors
+    /// If there is none.
+    fn look_at_mesh(&mut self, equations: &mut E) -> Result<(), Ended> {
+        self.since = 0;
+        let last = self.last();
+        match equations.refined(&last.x, last.t, &last.along, f64::INFINITY) {
+            Ok(None) => {
+                let place = self.branch.points.len() - 1;
+                self.fine = Fine { place, memory: self.memory.clone(), step: self.step };
+                self.postponed = 0;
+                Ok(())
+            }
+            Ok(Some(finer)) => self.restart(equations, &finer),
+            // Next to a branch point errors are large in one direction only: the next points tell more.
+            Err(Failed::Fine(_)) if self.postponed < MOST_POSTPONED && !self.at_end => {
+                self.postponed += 1;
+                Ok(())
+            }
+            Err(failed) => Err(self.ended_by(failed)),
+        }
+    }
+
+    /// Refuses another step where the range of the parameter ends, after as many as were allowed, and where asked to stop.
+    fn goes_on(&self) -> Result<(), Ended> {
+        if self.at_end {
+            Err(Ended::Span)
+        } else if self.steps >= self.limits.steps {
+            Err(Ended::Steps)
+        } else if self.limits.interrupted.is_some_and(|asks| asks()) {
+            Err(Ended::Failed(Failed::Interrupted))
+        } else {
+            Ok(())
+        }
+    }
+
+    /// The next point, and what lies before it, or a finer mesh to look for that on.
+    fn attempt(&mut self, equations: &mut E) -> Result<Attempt<E>, Failed> {
+        equations.expect_motions(Some(self.motions));
+        let next = advanced(equations, self.last(), &self.memory, self.step, self.limits)?;
+        if let Some(finer) = self.sharper(equations, &next.point) {
+            self.sharpened += 1;
+            return Ok(Attempt::Coarse(finer));
+        }
+        let found = special_points(equations, self.last(), &next.point, self.limits)?;
+        self.sharpened = 0;
+        let coarse =
+            found.iter().find_map(|found| unresolved(equations, found, self.limits, self.unresolved));
+        Ok(match coarse {
+            Some((finer, place, error)) => {
+                self.unresolved = Some((place, error));
+                Attempt::Coarse(finer)
+            }
+            None => Attempt::Next(next, found),
+        })
+    }
+
+    /// The next point on a finer mesh, if there is something special before it: on a mesh that is too coarse it is looked for in vain.
+    fn sharper(&self, equations: &mut E, next: &PointOf<E>) -> Option<E::State> {
+        if self.sharpened >= MOST_SHARPENED || !unlike(self.last(), next) {
+            return None;
+        }
+        let most = (DISTINCT * self.limits.tolerance).min(MOST_DISTINCT);
+        equations.refined(&next.x, next.t, &next.along, most).ok().flatten()
+    }
+
+    /// Goes to the next point, past the special points before it.
+    ///
+    /// # Errors
+    /// If one of those ends the branch, or if it is closed.
+    fn advance(
+        &mut self,
+        equations: &mut E,
+        next: Advanced<E>,
+        found: Vec<Found<E>>,
+        stop: &mut Stop<'_, E>,
+    ) -> Result<(), Ended> {
+        (self.steps, self.since) = (self.steps + 1, self.since + 1);
+        let before = self.branch.points.len() - 1;
+        for found in found {
+            self.pass(equations, found, stop)?;
+        }
+        (self.step, self.at_end) = (next.next_step(self.step, self.limits), next.at_end);
+        self.memory.drain(..(self.memory.len() + 1).saturating_sub(MEMORY));
+        self.memory.push(next.point.clone());
+        self.branch.points.push(next.point);
+        if is_closed(equations, &self.branch, before) { Err(Ended::Closed) } else { Ok(()) }
+    }
+
+    /// Takes a special point.
+    ///
+    /// # Errors
+    /// If it ends the branch.
+    fn pass(&mut self, equations: &mut E, found: Found<E>, stop: &mut Stop<'_, E>) -> Result<(), Ended> {
+        let Found { point, kind, multiplicity } = found;
+        let stopped = stop(equations, &point, kind);
+        self.branch.special.push(Special { kind, place: self.branch.points.len(), multiplicity });
+        self.branch.points.push(point);
+        if stopped { Err(Ended::Joined) } else { Ok(()) }
+    }
+
+    /// Makes the next step shorter than one that failed, and predicts it by fewer points.
+    ///
+    /// # Errors
+    /// If it is too short, or no step helps.
+    fn shorten(&mut self, failed: Failed) -> Result<(), Ended> {
+        self.step *= SHORTENED;
+        self.memory.drain(..self.memory.len().saturating_sub(2));
+        if self.step < SHORTEST || matches!(failed, Failed::Refused(_)) {
+            return Err(self.ended_by(failed));
+        }
+        Ok(())
+    }
+
+    /// Drops all points since the mesh was last found fine enough, and puts that one, and what was remembered there, on a finer one.
+    ///
+    /// # Errors
+    /// If it is no equilibrium there.
+    fn restart(&mut self, equations: &mut E, like: &E::State) -> Result<(), Ended> {
+        let memory = self.remembered(equations, like).map_err(|failed| self.ended_by(failed))?;
+        let place = self.fine.place;
+        self.branch.points.truncate(place);
+        self.branch.points.extend(memory.last().cloned());
+        self.branch.special.retain(|special| special.place < place);
+        self.fine.memory.clone_from(&memory);
+        (self.memory, self.step, self.at_end) = (memory, self.fine.step, false);
+        self.meshes += 1;
+        Ok(())
+    }
+
+    /// What was remembered at the point whose mesh was last found fine enough, on the mesh of another state; the last is that point.
+    fn remembered(&self, equations: &mut E, like: &E::State) -> Result<Vec<PointOf<E>>, Failed> {
+        let again = self.fine_again(equations, like)?;
+        let mut memory = Vec::new();
+        for point in &self.fine.memory[..self.fine.memory.len() - 1] {
+            let (x, along) = equations.remeshed(&point.x, &point.along.x, like, point.t)?;
+            memory.push(Point { x, along: Direction { x: along, t: point.along.t }, ..point.clone() });
+        }
+        memory.push(again);
+        Ok(memory)
+    }
+
+    /// The point whose mesh was last found fine enough, corrected on the mesh of another state.
+    fn fine_again(&self, equations: &mut E, like: &E::State) -> Result<PointOf<E>, Failed> {
+        let point = &self.branch.points[self.fine.place];
+        let (x, along) = equations.remeshed(&point.x, &point.along.x, like, point.t)?;
+        let along = Direction { x: along, t: point.along.t };
+        // What the branch begins with is at a value of the parameter, which it keeps, unless that is at a fold.
+        let kept = self.fine.place == 0 && along.t.abs() > 0.1;
+        let across = if kept { None } else { Some(&along) };
+        let guess = Guess { x, t: point.t, across, sense: Some(&along) };
+        let mut again = corrected(equations, guess, self.limits.tolerance, EXACTLY)?.point;
+        if kept {
+            again.t = point.t;
+        }
+        again.s = point.s;
+        Ok(again)
+    }
+
+    /// How the branch ends where a step or a mesh fails.
+    fn ended_by(&self, failed: Failed) -> Ended {
+        // Equations are singular where a section is about to become unstable.
+        let stability = &self.last().stability;
+        let soft = stability.section_index == 0 && stability.section < 1e-3;
+        if soft && !matches!(failed, Failed::Interrupted | Failed::Refused(_)) {
+            Ended::Section
+        } else {
+            Ended::Failed(failed)
+        }
+    }
+
+    /// The last point.
+    fn last(&self) -> &PointOf<E> {
+        &self.branch.points[self.branch.points.len() - 1]
+    }
+}
+
+/// The state at a branch point on a finer mesh, if this one is too coarse: a straight ribbon is exact on any mesh, but not the shape into
+/// which it buckles. With it the place, and the error of the parameter there.
+fn unresolved<E: Equations>(
+    equations: &mut E,
+    found: &Found<E>,
+    limits: &Limits,
+    before: Option<(f64, f64)>,
+) -> Option<(E::State, f64, f64)> {
+    let Found { point, kind: SpecialKind::BranchPoint, multiplicity } = found else { return None };
+    let off = across(equations, point, *multiplicity).into_iter().next();
+    let aside = off.and_then(|off| Some((stepped(equations, point, &off, limits)?, off)));
+    let (error, finer) = match aside {
+        Some((aside, off)) => {
+            let moved = MOVED.max(LOCATED * limits.tolerance);
+            equations.resolved(&aside.x, aside.t, &off, moved).ok()?
+        }
+        // No other branch is found: once more on a finer mesh.
+        None => (UNKNOWN, equations.doubled(&point.x, point.t).ok()?),
+    };
+    // What a finer mesh did not help is rounding.
+    let again = |(place, before): (f64, f64)| (place - point.t).abs() < 2.0 * before && error > 0.25 * before;
+    if before.is_some_and(again) {
+        return None;
+    }
+    finer.map(|finer| (finer, point.t, error))
+}
+
+/// Error of the parameter at a branch point that is too large, the same of the tolerance of points, and one that stands for an unknown one.
+const MOVED: f64 = 2e-11;
+const LOCATED: f64 = 0.1;
+const UNKNOWN: f64 = 1.0;

@@ -79,8 +79,8 @@ enum Pause {
     There,
     /// The mesh is too coarse.
     Coarse(Estimate),
-    /// Kinks belong elsewhere: the mesh with elements that end there.
-    Kinked(Box<(Mesh, Iterate)>),
+    /// Elements are to end elsewhere: the mesh where they do, and the iterate there.
+    Remade(Box<(Mesh, Iterate)>),
     /// It does not go on; [`Reached::failure`] says why.
     Failed,
 }
@@ -115,7 +115,7 @@ pub fn crept_from(
     crept_on(settings, mesh, x, spent)
 }
 
-/// Creeps on from a shape near the goal, on a finer mesh perhaps, on which it is none of rest.
+/// Creeps on from a shape near one of rest, as on a finer mesh.
 ///
 /// # Errors
 /// Where a section is refused.
@@ -151,10 +151,10 @@ fn crept_along(
         spent.meshes += 1;
         mesh = system.mesh;
         let (finer, x) = match pause {
-            Pause::Kinked(split) => *split,
+            Pause::Remade(split) => *split,
             Pause::Coarse(estimate) => {
                 let nodes = refined(&mesh, &estimate, ERROR);
-                if nodes.len() > MOST_ELEMENTS {
+                if nodes.len() > MOST_ELEMENTS + 1 {
                     pace.refines = false;
                     continue;
                 }
@@ -187,6 +187,10 @@ fn creep(
             reached.failure = Some(Failed::Interrupted);
             return Ok(Pause::Failed);
         }
+        if reached.steps >= MOST_STEPS || work(system) >= most_work {
+            reached.failure = Some(Failed::Restless(reached.steps));
+            return Ok(Pause::Failed);
+        }
         let t = (reached.fraction + pace.step).min(1.0);
         let targets = viscous(path, system, reached, t, pace.drag);
         let ended = newton(system, reached.x.clone(), &targets, &control);
@@ -196,13 +200,11 @@ fn creep(
             let stays = ended.failure.is_none() && targets.drag * changed(&reached.x, &ended.x) < AT_REST;
             if stays {
                 if let Some(divided) = divided(system, &ended.x, &targets)? {
-                    return Ok(Pause::Kinked(Box::new(divided)));
+                    return Ok(Pause::Remade(Box::new(divided)));
                 }
                 kick(&system.mesh, &mut reached.x)?;
             }
-            let goes_on =
-                pace.slower(t - reached.fraction) && reached.steps < MOST_STEPS && work(system) < most_work;
-            if !goes_on {
+            if !pace.slower(t - reached.fraction) {
                 reached.failure = Some(failure);
                 return Ok(Pause::Failed);
             }
@@ -214,7 +216,7 @@ fn creep(
         let there = t == 1.0 && pace.drag == 0.0;
         let slow = t == 1.0 && pace.drag < SMALL_DRAG && turned < SMALL_DRAG;
         if slow && let Some(split) = pace.kinked(system, reached)? {
-            return Ok(Pause::Kinked(Box::new(split)));
+            return Ok(Pause::Remade(Box::new(split)));
         }
         if pace.refines && (reached.steps.is_multiple_of(LOOK) || there) {
             let estimate = resolvable(system, &reached.x, &targets)?;
@@ -288,7 +290,7 @@ fn divided(system: &System, x: &Iterate, targets: &Targets) -> Result<Option<(Me
             nodes.push(0.5 * (mesh.nodes[i] + mesh.nodes[i + 1]));
         }
     }
-    if nodes.len() == mesh.nodes.len() || nodes.len() > MOST_ELEMENTS {
+    if nodes.len() == mesh.nodes.len() || nodes.len() > MOST_ELEMENTS + 1 {
         return Ok(None);
     }
     nodes.sort_by(f64::total_cmp);
@@ -298,7 +300,7 @@ fn divided(system: &System, x: &Iterate, targets: &Targets) -> Result<Option<(Me
 }
 
 impl Pace {
-    /// After a step of this length that failed; whether there is a slower pace.
+    /// After a step of this length of ends and loads that failed, zero if they are at their goal; whether there is a slower pace.
     fn slower(&mut self, step: f64) -> bool {
         self.rest = REST;
         self.drag = (MORE * self.drag).max(10.0 * LEAST_DRAG);

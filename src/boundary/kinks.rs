@@ -53,7 +53,7 @@ impl<'m> Phases<'m> {
     }
 
     /// The kinks moved towards where both phases have the same enthalpy `Pi - n.e` (Maxwell's rule), half of the way and by less
-    /// than turns the ribbon much: where creeping leaves them, at the end of the range of a phase, its strains are nearly singular.
+    /// than turns the ribbon much: creeping leaves them at the end of the range of a phase, where the strains of that phase grow like a square root.
     ///
     /// # Errors
     /// Where a section is refused.
@@ -113,10 +113,13 @@ impl<'m> Phases<'m> {
     pub fn split(&self, x: &Iterate, kinks: &[f64]) -> Result<(Mesh, Iterate), InvalidInput> {
         let mesh = self.mesh;
         let mut problem = Problem::clone(&mesh.problem);
-        problem.kinks = kinks.to_vec();
-        let mut nodes: Vec<f64> = mesh.nodes.iter().chain(kinks).copied().collect();
+        // A kink that is as good as at a node is there: no element is shorter.
+        let near = |s: f64| move |node: &&f64| (*node - s).abs() < SHORTEST * mesh.problem.length;
+        let kinks: Vec<f64> = kinks.iter().map(|&s| *mesh.nodes.iter().find(near(s)).unwrap_or(&s)).collect();
+        let mut nodes: Vec<f64> = mesh.nodes.iter().chain(&kinks).copied().collect();
         nodes.sort_by(f64::total_cmp);
-        nodes.dedup_by(|b, a| *b - *a < 1e-9 * problem.length && !kinks.contains(b));
+        nodes.dedup();
+        problem.kinks.clone_from(&kinks);
         let finer = Mesh::new(&Arc::new(problem), nodes, mesh.gauss.degree)?;
         let states = placed_states(x, mesh, &finer)?;
         // Each of the nearest stage of its run.
@@ -136,6 +139,8 @@ impl<'m> Phases<'m> {
 
 /// Change of the strains from a stage to the next that is none, over the largest strain.
 const LEAST_JUMP: f64 = 1e-3;
+/// The shortest element that a kink makes, over the length of the ribbon.
+const SHORTEST: f64 = 1e-9;
 /// Radians that a kink turns the ribbon by at most when it is moved.
 const LARGEST_MOVE: f64 = 0.2;
 /// What a law may miss of the resultants, of its strain.

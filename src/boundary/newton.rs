@@ -46,6 +46,9 @@ pub enum Failed {
     /// Asked to stop.
     #[error("interrupted")]
     Interrupted,
+    /// Too many steps.
+    #[error("the ribbon does not come to rest in {0} steps of creeping")]
+    Restless(usize),
     /// Too many.
     #[error("Newton's method is too slow: the last correction is {0:.1e}")]
     Slow(f64),

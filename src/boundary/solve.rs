@@ -351,7 +351,7 @@ pub fn unfinished(mesh: Mesh, reached: Reached, spent: &Spent) -> Solved {
     Solved { nodes: mesh.nodes, x: reached.x, report }
 }
 
-/// The same where the ribbon creeps on when a finer mesh does not confirm what it came to on a coarse one.
+/// As [`adapted`], and where a finer mesh does not confirm what the ribbon came to on a coarse one it creeps on there.
 fn crept_and_adapted(
     settings: &Settings,
     mesh: Mesh,

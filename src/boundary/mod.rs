@@ -16,6 +16,7 @@
 //! | `mesh`, `iterate`, `system` | all elements: unknowns, residual, Jacobian |
 //! | `correct`, `panel` | corrections, also with a parameter unknown |
 //! | `newton`, `known`, `path`, `arclength` | the nonlinear equations, from a known shape |
+//! | `creep`, `kinks` | the same where no equilibria lead on: viscous, to a stable one, with sections in several phases |
 //! | `step`, `adapt` | dense output, errors and meshes |
 //! | `check` | an independent residual |
 //! | `stability`, `fallen` | the index under the end conditions, and what unstable states fall into |

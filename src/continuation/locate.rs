@@ -349,7 +349,12 @@ fn located<E: Equations>(
             // Of two that are too near to each other rounding is what they tell.
             let near = &tried[0];
             let other = tried.iter().find(|other| (other.s - near.s).abs() > 0.5 * apart(near));
-            return Some(between_two(equations, other.unwrap_or(&tried[1]), near, best.1, &a.along));
+            let mut point = between_two(equations, other.unwrap_or(&tried[1]), near, best.1, &a.along);
+            if kind == SpecialKind::BranchPoint && !turns {
+                // So near the other branch the least error, as of the mesh, turns the tangent toward it.
+                point.along = between_tangents(equations, &a, &b, (point.s - a.s) / (b.s - a.s));
+            }
+            return Some(point);
         }
         if length < NEAREST {
             let last = &tried[tried.len().saturating_sub(MEMORY)..];
@@ -428,6 +433,24 @@ fn root(values: &[(f64, f64)]) -> (f64, f64) {
     };
     let place = interpolated(values);
     (place, (place - interpolated(&values[..values.len() - 1])).abs())
+}
+
+/// The unit tangent of Hermite's cubic part of the way from one point to another.
+fn between_tangents<E: Equations>(
+    equations: &mut E,
+    a: &PointOf<E>,
+    b: &PointOf<E>,
+    part: f64,
+) -> DirectionOf<E> {
+    let change = difference(equations, a, b);
+    let length = arclength(equations, [a, b], &change);
+    let square = part * part;
+    let weights =
+        [1.0 - 4.0 * part + 3.0 * square, 6.0 * (part - square) / length, 3.0 * square - 2.0 * part];
+    let parts = [(weights[0], &a.along.x), (weights[1], &change.x), (weights[2], &b.along.x)];
+    let t = weights[0] * a.along.t + weights[1] * change.t + weights[2] * b.along.t;
+    let x = equations.sum(&parts);
+    unit(equations, &Direction { x, t })
 }
 
 /// The point near two others at a place measured along a direction, by their tangents; it is not corrected.

@@ -98,6 +98,24 @@ def test_the_mesh_does_not_matter(degree, tol):
         assert [s.index for s in both[0]] == [s.index for s in both[1]]
 
 
+@cache
+def symmetric_strip(tol):
+    """From the symmetric state, onto the branch that breaks its symmetry."""
+    scene = rb.Scene(STRIP, rb.growth.edge(0.02), end=rb.Clamped(twist_turns=0.5))
+    return rb.trace(scene, "end.position[2]", (9.0, 10.0), start=rb.solve(scene, tol=tol), tol=tol, depth=1)
+
+
+@pytest.mark.parametrize("tol", [1e-4, 1e-6, 1e-7, 3e-8, 1e-9])
+def test_no_tolerance_leads_back_to_the_symmetric_branch(tol):
+    # The error of the mesh, which is not symmetric, turns the tangent at the branch point by its third root.
+    fine, other = symmetric_strip(1e-10), symmetric_strip(tol)
+    np.testing.assert_allclose(places(other, "branch_point"), places(fine, "branch_point"), rtol=tol)
+    np.testing.assert_allclose(places(other, "fold"), places(fine, "fold"), rtol=tol)
+    assert len(places(other, "fold")) == 2
+    ends = [np.abs(diagram.branches[1].state(-1).reactions.start.force) for diagram in (fine, other)]
+    np.testing.assert_allclose(ends[1], ends[0], rtol=tol)
+
+
 # --- an independent count
 
 

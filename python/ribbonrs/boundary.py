@@ -119,6 +119,8 @@ def _core_guess(scene: Scene, guess: State | ArrayLike) -> _core._Guess:
         S = np.linspace(0.0, reach, SAMPLES)
         if isinstance(guess.course, Held):
             S = np.union1d(S, guess.course.breaks)
+        jumps = np.array([event.S for event in guess.report.events if event.kind == "jump"])
+        S = np.union1d(S, [*jumps, *np.nextafter(jumps, 0.0)])
         known = guess.at(S)
         scaled = length / reach
         poses = scaled * known.position, known.quaternion

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use super::adapt::placed_states;
 use super::iterate::Iterate;
+use super::known::Guess;
 use super::law::Response;
 use super::mesh::Mesh;
 use super::problem::Problem;
@@ -139,6 +140,24 @@ impl<'m> Phases<'m> {
 
 /// Change of the strains from a stage to the next that is none, over the largest strain.
 const LEAST_JUMP: f64 = 1e-3;
+/// The problem with the kinks that a guess has: where its strains jump from one place to the next number.
+///
+/// # Errors
+/// Where a section is refused.
+pub fn kinked_by(problem: &Arc<Problem>, guess: &Guess) -> Result<Arc<Problem>, InvalidInput> {
+    let mut kinks = Vec::new();
+    for (places, strains) in guess.s.windows(2).zip(guess.strains.windows(2)) {
+        let next = places[1] - places[0] < SHORTEST * problem.length;
+        if next && differ(&problem.law.at(places[1])?, strains) {
+            kinks.push(places[1]);
+        }
+    }
+    if kinks.is_empty() {
+        return Ok(Arc::clone(problem));
+    }
+    Ok(Arc::new(Problem { kinks, ..Problem::clone(problem) }))
+}
+
 /// The shortest element that a kink makes, over the length of the ribbon.
 const SHORTEST: f64 = 1e-9;
 /// Radians that a kink turns the ribbon by at most when it is moved.

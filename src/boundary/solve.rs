@@ -10,6 +10,7 @@ use super::creep::{crept, crept_on};
 use super::ends::Hold;
 use super::fallen::{fallen, is_unstable};
 use super::iterate::{Iterate, Layout};
+use super::kinks::kinked_by;
 use super::known::{Guess, Known};
 use super::mesh::Mesh;
 use super::newton::{Control, Failed, newton};
@@ -78,7 +79,7 @@ struct Attempt {
 enum From {
     /// The first, second or third choice of [`Problem::known`], or a guess in place of the first.
     Choice(usize),
-    /// The natural shape.
+    /// The natural shape, or a guess.
     Natural,
     /// The straight one.
     Straight,
@@ -157,16 +158,22 @@ pub fn solve(
             break;
         }
         let known = match (guess, problem.known(attempt.from, attempt.imperfection)) {
-            (Some(guess), _) if attempt.from == From::Choice(0) => Known::Given(guess),
+            (Some(guess), _) if matches!(attempt.from, From::Choice(0) | From::Natural) => {
+                Known::Given(guess)
+            }
             (None, Some(known)) => known,
             _ => continue,
         };
+        let kinked = match &known {
+            Known::Given(guess) => kinked_by(problem, guess)?,
+            _ => Arc::clone(problem),
+        };
         let turn = first_turn(problem, &known)?;
-        let nodes = problem.first_nodes((attempt.finer * settings.first_elements) as f64, turn);
+        let nodes = kinked.first_nodes((attempt.finer * settings.first_elements) as f64, turn);
         if nodes.len() > settings.most_elements + 1 {
             break;
         }
-        let mesh = Mesh::new(problem, nodes, settings.degree)?;
+        let mesh = Mesh::new(&kinked, nodes, settings.degree)?;
         let (mesh, reached) = if attempt.gait == Gait::Creeping {
             crept(settings, mesh, &known, &mut spent)?
         } else {

@@ -66,6 +66,26 @@ def test_scenes_that_no_smooth_way_leads_to(seed):
     assert max(misses(state).values()) <= ALLOWED * 1e-10
 
 
+def test_a_guess_keeps_its_kinks(zigzag):
+    scene = rb.Scene(STRIP, rb.growth.edge(-0.14), end=SLIDING)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", rb.RibbonWarning)
+        state = rb.solve(scene, guess=zigzag)
+    places = [[event.S for event in one.report.events] for one in (state, zigzag)]
+    assert places[0] == places[1]
+    assert max(misses(state).values()) <= ALLOWED * 1e-10
+
+
+def test_a_guess_that_is_far_creeps_on():
+    strip = rb.Ribbon(10.0, 1.0, 0.1)
+    near, far = (rb.Scene(strip, rb.growth.edge(0.05), end=rb.Clamped((0.0, 0.0, z))) for z in (9.8, 9.7))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", rb.RibbonWarning)
+        state = rb.solve(far, guess=rb.solve(near))
+    assert state.stable
+    assert max(misses(state).values()) <= ALLOWED * 1e-10
+
+
 def test_a_smooth_state_has_no_kinks():
     state = rb.solve(rb.Scene(STRIP, rb.growth.edge(0.02), end=rb.Clamped((1.0, 0.5, 18.0))))
     assert state.report.events == ()

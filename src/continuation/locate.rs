@@ -435,7 +435,8 @@ fn root(values: &[(f64, f64)]) -> (f64, f64) {
     (place, (place - interpolated(&values[..values.len() - 1])).abs())
 }
 
-/// The unit tangent of Hermite's cubic part of the way from one point to another.
+/// The unit tangent of Hermite's cubic part of the way from one point to another. They are so near that rotations add as vectors do, which leaves an
+/// error of second order in their distance.
 fn between_tangents<E: Equations>(
     equations: &mut E,
     a: &PointOf<E>,

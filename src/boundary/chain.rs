@@ -20,7 +20,7 @@
 
 use nalgebra::DMatrix;
 
-use super::dense::{Determinant, backward, determinant, eliminate, forward, least_of};
+use super::dense::{Determinant, Factors, backward, determinant, dot, eliminate, forward, least_of, padded};
 
 /// Singular values below this part of the next are those of gliding and rolling.
 const GLIDING: f64 = 1e-2;
@@ -43,15 +43,12 @@ pub struct Chain {
     sizes: Vec<f64>,
 }
 
-/// The conditions at the end: the last panel, factorised.
+/// The conditions at the end: the last panel, by rows, and its factors.
 #[derive(Clone, Debug, Default)]
 struct Last {
     size: usize,
-    /// Before its elimination.
-    open: Vec<f64>,
-    block: Vec<f64>,
-    swaps: Vec<usize>,
-    pivot: f64,
+    panel: Vec<f64>,
+    factors: Factors,
 }
 
 /// Right-hand sides with all but the last panel eliminated.
@@ -110,7 +107,7 @@ impl Chain {
     }
 
     fn stride(&self) -> usize {
-        2 * self.n + self.m
+        padded(2 * self.n + self.m)
     }
 
     fn panel_size(&self) -> usize {
@@ -146,7 +143,7 @@ impl Chain {
         let panel = &mut self.panels[first..];
         for (row, carried) in panel.chunks_exact_mut(stride).zip(self.carried.chunks_exact(n + m)) {
             row[..n].copy_from_slice(&carried[..n]);
-            row[2 * n..].copy_from_slice(&carried[n..]);
+            row[2 * n..2 * n + m].copy_from_slice(&carried[n..]);
         }
         for (i, row) in panel[CARRIED * stride..].chunks_exact_mut(stride).enumerate() {
             for k in 0..n {
@@ -164,7 +161,7 @@ impl Chain {
         for (row, carried) in
             panel[n * stride..].chunks_exact(stride).zip(self.carried.chunks_exact_mut(n + m))
         {
-            carried.copy_from_slice(&row[n..]);
+            carried.copy_from_slice(&row[n..2 * n + m]);
         }
     }
 
@@ -184,23 +181,21 @@ impl Chain {
     pub fn finish(&mut self, conditions: &[f64], border: Option<&Border>) {
         let inner = self.n + self.m;
         let size = inner + border.map_or(0, |border| border.slack.len());
-        let mut block = Vec::with_capacity(size * size);
+        let mut panel = Vec::with_capacity(size * size);
         let rows = self.carried.chunks_exact(inner).chain(conditions.chunks_exact(inner));
         for (i, row) in rows.enumerate() {
-            block.extend_from_slice(row);
+            panel.extend_from_slice(row);
             if let Some(border) = border {
-                block.extend(border.slack.iter().map(|w| if i < CARRIED { 0.0 } else { w[i - CARRIED] }));
+                panel.extend(border.slack.iter().map(|w| if i < CARRIED { 0.0 } else { w[i - CARRIED] }));
             }
         }
         if let Some(border) = border {
             for phase in &border.phase {
-                block.extend_from_slice(phase);
-                block.extend(border.phase.iter().map(|_| 0.0));
+                panel.extend_from_slice(phase);
+                panel.extend(border.phase.iter().map(|_| 0.0));
             }
         }
-        let (open, mut swaps) = (block.clone(), vec![0; size]);
-        let pivot = eliminate(&mut block, size, size, &mut swaps);
-        self.last = Last { size, open, block, swaps, pivot };
+        self.last = Last { size, factors: Factors::of(&panel, size), panel };
     }
 
     /// The border that small singular values of the last panel ask for; `None` if none is far below the others.
@@ -230,7 +225,7 @@ impl Chain {
     /// The least relative pivot met: of the order of rounding, zero or NaN where the chain is singular.
     #[must_use]
     pub fn pivot(&self) -> f64 {
-        least_of(self.pivot, self.last.pivot)
+        least_of(self.pivot, self.last.factors.pivot)
     }
 
     /// The same without the last panel.
@@ -259,27 +254,20 @@ impl Chain {
     /// The last panel before its elimination, by rows: of the last node, the constants, and the slack of a border.
     #[must_use]
     pub fn last(&self) -> DMatrix<f64> {
-        DMatrix::from_row_slice(self.last.size, self.last.size, &self.last.open)
+        DMatrix::from_row_slice(self.last.size, self.last.size, &self.last.panel)
     }
 
     /// Condition number, in the 1-norm, of what is left for the last node and the constants.
     #[must_use]
     pub fn condition(&self) -> f64 {
-        let Last { size, block, swaps, .. } = &self.last;
+        let Last { size, panel, .. } = &self.last;
         let size = *size;
         let (mut inverse, mut norm) = (0.0_f64, 0.0_f64);
         for column in 0..size {
             let mut rhs = vec![0.0; size];
             rhs[column] = 1.0;
-            forward(block, size, swaps, &mut rhs);
-            backward(block, size, &mut rhs);
-            inverse = inverse.max(rhs.iter().map(|x| x.abs()).sum());
-            // The factors' product, column by column, is the panel.
-            let entry = |row: usize| {
-                let lower = |k: usize| if k == row { 1.0 } else { block[row * size + k] };
-                (0..=column.min(row)).map(|k| lower(k) * block[k * size + column]).sum::<f64>().abs()
-            };
-            norm = norm.max((0..size).map(entry).sum());
+            inverse = inverse.max(self.solve_last(&rhs).iter().map(|x| x.abs()).sum());
+            norm = norm.max(panel.iter().skip(column).step_by(size).map(|x| x.abs()).sum());
         }
         norm * inverse
     }
@@ -287,11 +275,7 @@ impl Chain {
     /// Solves the last panel.
     #[must_use]
     pub fn solve_last(&self, rhs: &[f64]) -> Vec<f64> {
-        let Last { size, block, swaps, .. } = &self.last;
-        let mut last = rhs.to_vec();
-        forward(block, *size, swaps, &mut last);
-        backward(block, *size, &mut last);
-        last
+        self.last.factors.solve(rhs.to_vec())
     }
 
     /// Eliminates right-hand sides at the start (6), of the elements (`n` each) and at the end, but for the last panel.
@@ -339,10 +323,8 @@ impl Chain {
             let panel = &self.panels[i * self.panel_size()..(i + 1) * self.panel_size()];
             let x = &mut head[i * n..];
             for (row, value) in x.iter_mut().enumerate() {
-                let known = &panel[row * stride + n..(row + 1) * stride];
-                let state: f64 = known[..n].iter().zip(next).map(|(a, x)| a * x).sum();
-                let constant: f64 = known[n..].iter().zip(&*p).map(|(a, x)| a * x).sum();
-                *value = kept[i * n + row] - state - constant;
+                let known = &panel[row * stride + n..row * stride + 2 * n + m];
+                *value = kept[i * n + row] - dot(&known[..n], next) - dot(&known[n..], p);
             }
             backward(panel, stride, x);
         }

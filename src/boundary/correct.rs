@@ -14,7 +14,7 @@ use nalgebra::DMatrix;
 
 use super::chain::Reduced;
 use super::dense::Determinant;
-use super::eliminated::{Change, Eliminated};
+use super::eliminated::{Change, Eliminated, by_component, by_stage};
 use super::iterate::Correction;
 use super::panel::{Panel, SVD_STEPS};
 use super::system::{Residual, System};
@@ -130,7 +130,9 @@ impl System {
         for (i, gap) in residual.gaps.iter().enumerate() {
             self.join_gap(&mut rhs, i, gap, &Change::default());
         }
-        let law: Vec<f64> = residual.strains.iter().flat_map(|c| (-c).data.0[0]).collect();
+        let degree = self.mesh.gauss.degree;
+        let law: Vec<f64> =
+            residual.strains.chunks_exact(degree).flat_map(|c| by_component(c, -1.0)).collect();
         let solved =
             self.sparse.as_ref().and_then(|sparse| sparse.solve(&residual.start, &law, &rhs, &residual.end));
         let Some((changes, own)) = solved else {
@@ -139,7 +141,7 @@ impl System {
             let strains = vec![Strain::zeros(); self.mesh.stages()];
             return Correction { nodes, strains, slack: Default::default() };
         };
-        let strains = own.chunks_exact(4).map(Strain::from_column_slice).collect();
+        let strains = own.chunks_exact(4 * degree).flat_map(by_stage).collect();
         let nodes = self.placed_nodes(&changes.states, &changes.constants);
         Correction { nodes, strains, slack: changes.slack }
     }

@@ -1,35 +1,69 @@
 //! Gaussian elimination on small dense blocks, stored by rows.
 
-/// Eliminates the first `pivots` columns of a block of rows of length `stride`, with partial pivoting.
+/// Numbers that are worked on at once: rows are as long as a multiple of it.
+const WIDE: usize = 4;
+
+/// So many numbers, and those that pad them to the length of a row.
+#[must_use]
+pub const fn padded(count: usize) -> usize {
+    count.next_multiple_of(WIDE)
+}
+
+/// Eliminates the first `pivots` columns of a block of rows of length `stride`, which is [`padded`], with partial pivoting.
 ///
 /// The multipliers stay in the place of what they eliminated, the rows are exchanged as a whole, and `swaps`
 /// takes the pivot row of each column. Returns the least pivot relative to the largest entry its column had:
 /// of the order of rounding where the block is singular.
+///
+/// # Panics
+/// If the rows have another length, or are longer than 44.
 pub fn eliminate(block: &mut [f64], stride: usize, pivots: usize, swaps: &mut [usize]) -> f64 {
-    let rows = block.len() / stride;
+    macro_rules! of_width {
+        ($($width:literal)*) => {
+            match stride {
+                $($width => eliminate_rows::<$width>(block.as_chunks_mut().0, pivots, swaps),)*
+                _ => panic!("rows of {stride} numbers"),
+            }
+        };
+    }
+    of_width!(4 8 12 16 20 24 28 32 36 40 44)
+}
+
+fn eliminate_rows<const WIDTH: usize>(rows: &mut [[f64; WIDTH]], pivots: usize, swaps: &mut [usize]) -> f64 {
     let mut least = f64::INFINITY;
+    // Of each column, in the pivot rows so far.
+    let mut largest = [0.0_f64; WIDTH];
     for k in 0..pivots {
-        let scale = block.iter().skip(k).step_by(stride).fold(0.0, |m: f64, x| m.max(x.abs()));
-        let size = |row: usize| block[row * stride + k].abs();
-        let pivot = (k..rows).fold(k, |best, row| if size(row) > size(best) { row } else { best });
-        swaps[k] = pivot;
-        if pivot != k {
-            let (head, tail) = block.split_at_mut(pivot * stride);
-            head[k * stride..(k + 1) * stride].swap_with_slice(&mut tail[..stride]);
+        let (mut pivot, mut size) = (k, 0.0);
+        for (row, entries) in rows.iter().enumerate().skip(k) {
+            if entries[k].abs() > size {
+                (pivot, size) = (row, entries[k].abs());
+            }
         }
-        let (head, tail) = block.split_at_mut((k + 1) * stride);
-        let row = &head[k * stride..];
-        least = least_of(least, row[k].abs() / scale);
-        if row[k] == 0.0 {
+        swaps[k] = pivot;
+        rows.swap(k, pivot);
+        let (head, tail) = rows.split_at_mut(k + 1);
+        // What is left of the row, in whole pieces: nothing is added to the multipliers.
+        let mut rest = head[k];
+        least = least_of(least, rest[k].abs() / largest[k].max(size));
+        if rest[k] == 0.0 {
             return 0.0;
         }
-        let inverse = 1.0 / row[k];
-        for other in tail.chunks_exact_mut(stride) {
+        for (largest, x) in largest.iter_mut().zip(&rest) {
+            *largest = if x.abs() > *largest { x.abs() } else { *largest };
+        }
+        let inverse = 1.0 / rest[k];
+        rest[..=k].fill(0.0);
+        let first = (k + 1) / WIDE;
+        let rest = &rest.as_chunks::<WIDE>().0[first..];
+        for other in tail {
             let factor = other[k] * inverse;
             other[k] = factor;
             if factor != 0.0 {
-                for (x, y) in other[k + 1..].iter_mut().zip(&row[k + 1..]) {
-                    *x -= factor * y;
+                for (piece, rest) in other.as_chunks_mut::<WIDE>().0[first..].iter_mut().zip(rest) {
+                    for i in 0..WIDE {
+                        piece[i] -= factor * rest[i];
+                    }
                 }
             }
         }
@@ -81,20 +115,72 @@ pub fn forward(block: &[f64], stride: usize, swaps: &[usize], rhs: &mut [f64]) {
     for (k, &pivot) in swaps.iter().enumerate() {
         rhs.swap(k, pivot);
     }
-    for k in 0..swaps.len() {
-        let value = rhs[k];
-        for (row, x) in rhs.iter_mut().enumerate().skip(k + 1) {
-            *x -= block[row * stride + k] * value;
-        }
+    for row in 1..rhs.len() {
+        let (known, rest) = rhs.split_at_mut(row);
+        let known = &known[..row.min(swaps.len())];
+        rest[0] -= dot(&block[row * stride..row * stride + known.len()], known);
     }
 }
 
 /// Solves with the upper triangle of the first `rhs.len()` rows and columns.
 pub fn backward(block: &[f64], stride: usize, rhs: &mut [f64]) {
     for k in (0..rhs.len()).rev() {
-        let row = &block[k * stride..];
-        let known: f64 = row[k + 1..rhs.len()].iter().zip(&rhs[k + 1..]).map(|(a, x)| a * x).sum();
-        rhs[k] = (rhs[k] - known) / row[k];
+        let row = &block[k * stride..k * stride + rhs.len()];
+        rhs[k] = (rhs[k] - dot(&row[k + 1..], &rhs[k + 1..])) / row[k];
+    }
+}
+
+/// The sum of products.
+#[must_use]
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let ((a, rest_a), (b, rest_b)) = (a.as_chunks::<WIDE>(), b.as_chunks::<WIDE>());
+    let mut sums = [0.0; WIDE];
+    for (a, b) in a.iter().zip(b) {
+        for i in 0..WIDE {
+            sums[i] += a[i] * b[i];
+        }
+    }
+    let rest: f64 = rest_a.iter().zip(rest_b).map(|(a, b)| a * b).sum();
+    sums[0] + sums[1] + (sums[2] + sums[3]) + rest
+}
+
+/// The factors of a square matrix.
+#[derive(Clone, Debug, Default)]
+pub struct Factors {
+    /// Padded rows.
+    block: Vec<f64>,
+    swaps: Vec<usize>,
+    /// The least relative pivot.
+    pub pivot: f64,
+}
+
+impl Factors {
+    /// Of a matrix of this size, given by rows.
+    #[must_use]
+    pub fn of(matrix: &[f64], size: usize) -> Self {
+        let stride = padded(size);
+        let mut block = vec![0.0; size * stride];
+        for (padded, row) in block.chunks_exact_mut(stride).zip(matrix.chunks_exact(size)) {
+            padded[..size].copy_from_slice(row);
+        }
+        let mut swaps = vec![0; size];
+        let pivot = eliminate(&mut block, stride, size, &mut swaps);
+        Self { block, swaps, pivot }
+    }
+
+    /// Solves.
+    #[must_use]
+    pub fn solve(&self, mut rhs: Vec<f64>) -> Vec<f64> {
+        let stride = padded(self.swaps.len());
+        forward(&self.block, stride, &self.swaps, &mut rhs);
+        backward(&self.block, stride, &mut rhs);
+        rhs
+    }
+
+    /// The determinant.
+    #[must_use]
+    pub fn determinant(&self) -> Determinant {
+        determinant(&self.block, padded(self.swaps.len()), &self.swaps)
     }
 }
 
@@ -107,23 +193,22 @@ mod tests {
         // Rows of a system whose first pivot is zero.
         let matrix = [0.0, 2.0, 1.0, 1.0, 1.0, 0.0, 2.0, 0.0, 3.0];
         let solution = [1.0, -2.0, 3.0];
-        let mut rhs: Vec<f64> =
-            matrix.chunks(3).map(|row| row.iter().zip(&solution).map(|(a, x)| a * x).sum()).collect();
-        let (mut block, mut swaps) = (matrix, [0; 3]);
-        assert!(eliminate(&mut block, 3, 3, &mut swaps) > 0.1);
-        forward(&block, 3, &swaps, &mut rhs);
-        backward(&block, 3, &mut rhs);
-        for (x, y) in rhs.iter().zip(solution) {
+        let rhs = matrix.chunks(3).map(|row| row.iter().zip(&solution).map(|(a, x)| a * x).sum()).collect();
+        let factors = Factors::of(&matrix, 3);
+        assert!(factors.pivot > 0.1);
+        for (x, y) in factors.solve(rhs).iter().zip(solution) {
             assert!((x - y).abs() < 1e-15);
         }
+        // 2 (1 2, 3 0) and its exchanged rows.
+        assert!((factors.determinant().log - 12f64.ln()).abs() < 1e-15);
     }
 
     #[test]
     fn a_singular_block_is_told() {
-        let mut block = [1.0, 2.0, 2.0, 4.0 * (1.0 + 1e-16)];
-        assert!(eliminate(&mut block, 2, 2, &mut [0; 2]) < 1e-15);
-        assert_eq!(eliminate(&mut [0.0; 4], 2, 2, &mut [0; 2]), 0.0);
-        assert!(eliminate(&mut [f64::NAN, 1.0, 1.0, 1.0], 2, 2, &mut [0; 2]).is_nan());
+        let pivot = |matrix: [f64; 4]| Factors::of(&matrix, 2).pivot;
+        assert!(pivot([1.0, 2.0, 2.0, 4.0 * (1.0 + 1e-16)]) < 1e-15);
+        assert_eq!(pivot([0.0; 4]), 0.0);
+        assert!(pivot([f64::NAN, 1.0, 1.0, 1.0]).is_nan());
         for (a, b) in [(f64::NAN, 1.0), (1.0, f64::NAN)] {
             assert!(least_of(a, b).is_nan());
         }

@@ -13,20 +13,22 @@
 //! and the strains `e_j` are what the law asks for, `value(e_j) + drag e_j - compliance n_j - offset_j = 0`, drag and offset zero but on the way to a solution. The orientations are linear
 //! in `q` at given strains: an `s x s` system over the quaternions. So only the `4 s` strains are unknowns, and
 //! since a rigid motion of all changes nothing, they depend on the start through the wrench alone (and the
-//! direction of distributed loads). The Jacobian of the strains, by 4 x 4 blocks of stages,
+//! direction of distributed loads). The Jacobian of the strains, by `s x s` blocks of components,
 //!
 //! ```text
-//!           e_1   e_2  ..  e_s  |  u_N   u_M  (u_p)
-//! c_1     [  x     x        x   |   x     x     x  ]      x: full, since the stages of an element are
-//! c_2     [  x     x        x   |   x     x     x  ]         coupled through q_j and rho_j
-//!  :      [  :                  |                  ]
-//! c_s     [  x     x        x   |   x     x     x  ]
+//!           eps   K1    K2   K3  |  u_N   u_M  (u_p)
+//! c_1     [  D     x     x    x  |   x     0     x  ]     D: diagonal; x: full, since the stages of an element are
+//! c_2     [  x     x     x    x  |   x     x     x  ]        coupled through q_j and rho_j
+//! c_3     [  x     x     x    x  |   x     x     x  ]
+//! c_4     [  x     x     x    x  |   x     x     x  ]
 //! ```
 //!
 //! is eliminated with pivoting, a singular tangent stiffness at a stage notwithstanding. What is left is the
 //! flexibility of the element: the change of its end pose with the wrench.
 
 #![expect(clippy::needless_range_loop, reason = "indices of stages, as in the equations")]
+
+use std::array::from_fn;
 
 use nalgebra::{Matrix3, Matrix4, Quaternion, Vector3};
 
@@ -88,7 +90,12 @@ pub struct Exit {
     pub lever: Vector,
 }
 
-/// The stages of an element at given strains, and room for their linearisation.
+/// A number for every stage, and zeros; two at a time are worked on.
+type Lane<const L: usize> = [f64; L];
+/// The same of the components of a quaternion `w, i, j, k`.
+type Quaternions<const L: usize> = [Lane<L>; 4];
+
+/// The stages of an element at given strains.
 #[derive(Clone, Debug)]
 pub struct Stages {
     /// `q_j`.
@@ -99,20 +106,12 @@ pub struct Stages {
     pub force: [Vector; MAX_DEGREE],
     /// `M_j`.
     pub moment: [Vector; MAX_DEGREE],
-    /// `n_j`.
-    pub resultants: [Strain; MAX_DEGREE],
     /// By what each stage violates the law.
     pub residual: [Strain; MAX_DEGREE],
     directors: [Matrix3<f64>; MAX_DEGREE],
     tangent: [Matrix4<f64>; MAX_DEGREE],
+    /// Of the system for the orientations.
     inverse: [[Quaternion<f64>; MAX_DEGREE]; MAX_DEGREE],
-    /// What a strain at stage `l` does to stage `j`, `[j][l]`: to the rotation on its directors and to the square
-    /// of the norm of its quaternion (relative), for each curvature.
-    spin: [[[(Vector, f64); 3]; MAX_DEGREE]; MAX_DEGREE],
-    /// To the tangent `d3`, for each curvature.
-    tilt: [[[Vector; 3]; MAX_DEGREE]; MAX_DEGREE],
-    /// To the position, for each strain.
-    shift: [[[Vector; 4]; MAX_DEGREE]; MAX_DEGREE],
 }
 
 const ZERO: Quaternion<f64> = Quaternion::new(0.0, 0.0, 0.0, 0.0);
@@ -125,16 +124,28 @@ impl Default for Stages {
             arm: [none; MAX_DEGREE],
             force: [none; MAX_DEGREE],
             moment: [none; MAX_DEGREE],
-            resultants: [Strain::zeros(); MAX_DEGREE],
             residual: [Strain::zeros(); MAX_DEGREE],
             directors: [Matrix3::zeros(); MAX_DEGREE],
             tangent: [Matrix4::zeros(); MAX_DEGREE],
             inverse: [[ZERO; MAX_DEGREE]; MAX_DEGREE],
-            spin: [[[(none, 0.0); 3]; MAX_DEGREE]; MAX_DEGREE],
-            tilt: [[[none; 3]; MAX_DEGREE]; MAX_DEGREE],
-            shift: [[[none; 4]; MAX_DEGREE]; MAX_DEGREE],
         }
     }
+}
+
+/// The number of stages, and the same made even, known to the compiler: loops over stages are of fixed length.
+macro_rules! of_degree {
+    ($degree:expr, $stages:ident.$method:ident($($argument:expr),*)) => {
+        match $degree {
+            1 => $stages.$method::<1, 2>($($argument),*),
+            2 => $stages.$method::<2, 2>($($argument),*),
+            3 => $stages.$method::<3, 4>($($argument),*),
+            4 => $stages.$method::<4, 4>($($argument),*),
+            5 => $stages.$method::<5, 6>($($argument),*),
+            6 => $stages.$method::<6, 6>($($argument),*),
+            7 => $stages.$method::<7, 8>($($argument),*),
+            _ => $stages.$method::<MAX_DEGREE, MAX_DEGREE>($($argument),*),
+        }
+    };
 }
 
 /// The vector part of a curvature as a quaternion.
@@ -142,12 +153,66 @@ fn pure(strain: &Strain) -> Quaternion<f64> {
     Quaternion::new(0.0, strain[1], strain[2], strain[3])
 }
 
+/// Quaternions, one a stage.
+#[inline(always)]
+fn lanes<const L: usize>(q: &[Quaternion<f64>; MAX_DEGREE]) -> Quaternions<L> {
+    [from_fn(|l| q[l].w), from_fn(|l| q[l].i), from_fn(|l| q[l].j), from_fn(|l| q[l].k)]
+}
+
+/// The quaternion of a stage.
+#[inline(always)]
+fn at<const L: usize>(q: &Quaternions<L>, stage: usize) -> Quaternion<f64> {
+    Quaternion::new(q[0][stage], q[1][stage], q[2][stage], q[3][stage])
+}
+
+/// Sets the quaternion of a stage.
+#[inline(always)]
+fn set<const L: usize>(q: &mut Quaternions<L>, stage: usize, value: &Quaternion<f64>) {
+    (q[0][stage], q[1][stage], q[2][stage], q[3][stage]) = (value.w, value.i, value.j, value.k);
+}
+
+/// The same quaternion for every stage.
+#[inline(always)]
+fn all<const L: usize>(q: &Quaternion<f64>) -> Quaternions<L> {
+    [[q.w; L], [q.i; L], [q.j; L], [q.k; L]]
+}
+
+/// `x += factor y`.
+#[inline(always)]
+fn add<const L: usize>(x: &mut Lane<L>, factor: f64, y: &Lane<L>) {
+    for l in 0..L {
+        x[l] += factor * y[l];
+    }
+}
+
+/// `p q` for every stage.
+#[inline(always)]
+fn times<const L: usize>(p: &Quaternions<L>, q: &Quaternions<L>) -> Quaternions<L> {
+    let mut product = [[0.0; L]; 4];
+    for l in 0..L {
+        product[0][l] = p[0][l] * q[0][l] - p[1][l] * q[1][l] - p[2][l] * q[2][l] - p[3][l] * q[3][l];
+    }
+    for l in 0..L {
+        product[1][l] = p[0][l] * q[1][l] + p[1][l] * q[0][l] + p[2][l] * q[3][l] - p[3][l] * q[2][l];
+    }
+    for l in 0..L {
+        product[2][l] = p[0][l] * q[2][l] - p[1][l] * q[3][l] + p[2][l] * q[0][l] + p[3][l] * q[1][l];
+    }
+    for l in 0..L {
+        product[3][l] = p[0][l] * q[3][l] + p[1][l] * q[2][l] - p[2][l] * q[1][l] + p[3][l] * q[0][l];
+    }
+    product
+}
+
 /// `q (0, e_c)`: a permutation.
-fn times_unit(q: &Quaternion<f64>, c: usize) -> Quaternion<f64> {
+#[inline(always)]
+fn times_unit<const L: usize>(q: &Quaternions<L>, c: usize) -> Quaternions<L> {
+    let [w, i, j, k] = q;
+    let minus = |x: &Lane<L>| x.map(|x| -x);
     match c {
-        0 => Quaternion::new(-q.i, q.w, q.k, -q.j),
-        1 => Quaternion::new(-q.j, -q.k, q.w, q.i),
-        _ => Quaternion::new(-q.k, q.j, -q.i, q.w),
+        0 => [minus(i), *w, *k, minus(j)],
+        1 => [minus(j), minus(k), *w, *i],
+        _ => [minus(k), *j, minus(i), *w],
     }
 }
 
@@ -176,8 +241,23 @@ impl Stages {
 
     /// The stages at these strains, and where the element ends.
     pub fn evaluate(&mut self, span: &Span<'_>, entry: &Entry, strains: &[Strain]) -> Exit {
-        self.orient(span, entry, strains);
-        let (h, s) = (span.length, span.gauss.degree);
+        of_degree!(span.gauss.degree, self.evaluated(span, entry, strains))
+    }
+
+    /// Linearises about the stages just evaluated.
+    pub fn linearise(&self, span: &Span<'_>, exit: &Exit, strains: &[Strain], into: &mut Eliminated) {
+        into.begin(span.gauss.degree, !span.load.is_empty());
+        of_degree!(span.gauss.degree, self.linearised(span, exit, strains, into));
+    }
+
+    fn evaluated<const S: usize, const L: usize>(
+        &mut self,
+        span: &Span<'_>,
+        entry: &Entry,
+        strains: &[Strain],
+    ) -> Exit {
+        self.orient::<S, L>(span, entry, strains);
+        let h = span.length;
         let a = &span.gauss.integral;
         let mut exit = Exit {
             rotation: entry.rotation,
@@ -187,37 +267,35 @@ impl Stages {
             lever: Vector::zeros(),
         };
         let mut speed = [Vector::zeros(); MAX_DEGREE];
-        for j in 0..s {
-            self.directors[j] = directors(&self.rotation[j]);
+        for j in 0..S {
+            let q = self.rotation[j];
+            self.directors[j] = directors(&q);
             speed[j] = self.directors[j].column(2) * (h * (1.0 + strains[j][0]));
             let weight = span.gauss.weights[j];
             exit.arm += weight * speed[j];
-            exit.rotation += self.rotation[j] * pure(&strains[j]) * (0.5 * h * weight);
+            exit.rotation += q * pure(&strains[j]) * (0.5 * h * weight);
         }
-        for j in 0..s {
-            self.arm[j] = (0..s).map(|k| a[j][k] * speed[k]).sum();
+        for j in 0..S {
+            let mut arm = Vector::zeros();
+            for k in 0..S {
+                arm += a[j][k] * speed[k];
+            }
+            self.arm[j] = arm;
         }
-        for j in 0..s {
+        for j in 0..S {
             let (mut force, mut moment) = (entry.force, entry.moment);
             for (k, (p, c)) in span.load.iter().enumerate() {
                 force -= h * a[j][k] * p;
                 moment -= h * a[j][k] * (self.arm[k].cross(p) + c);
             }
             moment -= self.arm[j].cross(&force);
-            let (d, m) = (&self.directors[j], self.directors[j].tr_mul(&moment));
             (self.force[j], self.moment[j]) = (force, moment);
-            self.resultants[j] = Strain::new(d.column(2).dot(&force), m.x, m.y, m.z);
-        }
-        for ((p, c), (arm, &weight)) in span.load.iter().zip(self.arm.iter().zip(&span.gauss.weights)) {
-            exit.force_drop += h * weight * p;
-            exit.couple_drop += h * weight * c;
-            exit.lever += h * weight * arm.cross(p);
-        }
-        for j in 0..s {
+            let (d, m) = (&self.directors[j], self.directors[j].tr_mul(&moment));
+            let resultants = Strain::new(d.column(2).dot(&force), m.x, m.y, m.z);
             let response = span.response(j);
             let (value, tangent) = response.value(&strains[j]);
             self.tangent[j] = tangent;
-            self.residual[j] = value - response.compliance.component_mul(&self.resultants[j]);
+            self.residual[j] = value - response.compliance.component_mul(&resultants);
             if let Some(offset) = span.offset.get(j) {
                 self.residual[j] -= offset;
             }
@@ -226,6 +304,11 @@ impl Stages {
                 self.tangent[j] += Matrix4::from_diagonal_element(span.drag);
             }
         }
+        for ((p, c), (arm, &weight)) in span.load.iter().zip(self.arm.iter().zip(&span.gauss.weights)) {
+            exit.force_drop += h * weight * p;
+            exit.couple_drop += h * weight * c;
+            exit.lever += h * weight * arm.cross(p);
+        }
         exit
     }
 
@@ -233,165 +316,214 @@ impl Stages {
     ///
     /// Row operations multiply from the left. The pivots need no search: the matrix is the identity plus what
     /// turns by less than a right angle on any element that resolves the shape.
-    fn orient(&mut self, span: &Span<'_>, entry: &Entry, strains: &[Strain]) {
-        let (half, s) = (0.5 * span.length, span.gauss.degree);
-        let m = &mut self.inverse;
-        for k in 0..s {
-            let curvature = pure(&strains[k]) * -half;
-            for j in 0..s {
-                m[k][j] = curvature * span.gauss.integral[j][k];
+    fn orient<const S: usize, const L: usize>(&mut self, span: &Span<'_>, entry: &Entry, strains: &[Strain]) {
+        let half = 0.5 * span.length;
+        let mut m = [[[0.0; L]; 4]; S];
+        for k in 0..S {
+            for j in 0..S {
+                let weight = -half * span.gauss.integral[j][k];
+                for c in 1..4 {
+                    m[k][c][j] = weight * strains[k][c];
+                }
             }
-            m[k][k].w += 1.0;
+            m[k][0][k] = 1.0;
         }
         // Gauss-Jordan in place.
-        for k in 0..s {
-            let pivot = m[k][k].conjugate() * (1.0 / m[k][k].norm_squared());
-            m[k][k] = Quaternion::new(1.0, 0.0, 0.0, 0.0);
-            for j in 0..s {
-                m[k][j] = pivot * m[k][j];
-            }
-            let row = m[k];
-            for (i, other) in m.iter_mut().enumerate().take(s) {
+        for k in 0..S {
+            let pivot = at(&m[k], k);
+            let pivot = pivot.conjugate() * (1.0 / pivot.norm_squared());
+            set(&mut m[k], k, &Quaternion::new(1.0, 0.0, 0.0, 0.0));
+            let row = times(&all(&pivot), &m[k]);
+            m[k] = row;
+            for i in 0..S {
                 if i != k {
-                    let factor = other[k];
-                    other[k] = ZERO;
-                    for j in 0..s {
-                        other[j] -= factor * row[j];
+                    let factor = -at(&m[i], k);
+                    set(&mut m[i], k, &ZERO);
+                    let change = times(&all(&factor), &row);
+                    for c in 0..4 {
+                        add(&mut m[i][c], 1.0, &change[c]);
                     }
                 }
             }
         }
-        for j in 0..s {
-            let sum = (0..s).map(|k| m[k][j]).fold(ZERO, |sum, x| sum + x);
-            self.rotation[j] = entry.rotation * sum;
+        let mut sum = [[0.0; L]; 4];
+        for row in &m {
+            for c in 0..4 {
+                add(&mut sum[c], 1.0, &row[c]);
+            }
+        }
+        for j in 0..S {
+            self.rotation[j] = entry.rotation * at(&sum, j);
+            for k in 0..S {
+                self.inverse[j][k] = at(&m[k], j);
+            }
         }
     }
 
-    /// Linearises about the stages just evaluated.
-    pub fn linearise(&mut self, span: &Span<'_>, exit: &Exit, strains: &[Strain], into: &mut Eliminated) {
-        let (h, s) = (span.length, span.gauss.degree);
-        let (a, b) = (&span.gauss.integral, &span.gauss.weights);
-        let loaded = !span.load.is_empty();
-        let inputs = if loaded { 9 } else { 6 };
-        let (size, stride) = (4 * s, 4 * s + inputs);
-        into.begin(size, loaded);
-
+    fn linearised<const S: usize, const L: usize>(
+        &self,
+        span: &Span<'_>,
+        exit: &Exit,
+        strains: &[Strain],
+        into: &mut Eliminated,
+    ) {
+        let h = span.length;
+        let a: [Lane<L>; S] = from_fn(|j| from_fn(|k| span.gauss.integral[j][k]));
+        let b: Lane<L> = from_fn(|l| if l < S { span.gauss.weights[l] } else { 0.0 });
+        let rotation: Quaternions<L> = lanes(&self.rotation);
+        // What curvature c at stage l does to stage j, [j][c][..][l]: to the rotation on its directors, to the square of the norm of its
+        // quaternion, relative, and to h (1 + eps) d3.
+        let mut spin = [[[[0.0; L]; 3]; 3]; S];
+        let mut growth = [[[0.0; L]; 3]; S];
+        let mut tilt = [[[[0.0; L]; 3]; 3]; S];
         // dq_j = sum_l q_l dK_l z_lj with z_lj = (h/2) sum_k a_kl x_kj, x the inverse.
-        for l in 0..s {
-            let mut z_end = Quaternion::new(b[l], 0.0, 0.0, 0.0);
-            for j in 0..s {
-                let z = (0..s).map(|k| self.inverse[k][j] * a[k][l]).fold(ZERO, |sum, x| sum + x) * (0.5 * h);
-                z_end += z * pure(&strains[j]) * b[j];
-                let q = &self.rotation[j];
-                let relative = q.conjugate() * self.rotation[l] * (2.0 / q.norm_squared());
-                let d = &self.directors[j];
-                for c in 0..3 {
-                    let twice = times_unit(&relative, c) * z;
-                    let (spin, growth) = (twice.imag(), twice.w);
-                    self.spin[j][l][c] = (spin, growth);
-                    self.tilt[j][l][c] = d.column(0) * spin.y - d.column(1) * spin.x + d.column(2) * growth;
+        let mut z_end = [b, [0.0; L], [0.0; L], [0.0; L]];
+        for j in 0..S {
+            let mut z = [[0.0; L]; 4];
+            for k in 0..S {
+                let x = self.inverse[j][k] * (0.5 * h);
+                for (z, x) in z.iter_mut().zip([x.w, x.i, x.j, x.k]) {
+                    add(z, x, &a[k]);
                 }
             }
-            let z_end = z_end * (0.5 * h);
+            let turned = times(&z, &all(&(pure(&strains[j]) * b[j])));
+            for c in 0..4 {
+                add(&mut z_end[c], 1.0, &turned[c]);
+            }
+            let q = self.rotation[j];
+            let relative = times(&all(&(q.conjugate() * (2.0 / q.norm_squared()))), &rotation);
+            let stretched = self.directors[j] * (h * (1.0 + strains[j][0]));
             for c in 0..3 {
-                let turn = times_unit(&self.rotation[l], c) * z_end * exit.rotation.conjugate();
-                let turn = 2.0 * turn.imag();
+                [growth[j][c], spin[j][c][0], spin[j][c][1], spin[j][c][2]] =
+                    times(&times_unit(&relative, c), &z);
+                let (growth, spin) = (&growth[j][c], &spin[j][c]);
                 for i in 0..3 {
-                    into.readout[(3 + i) * size + 4 * l + 1 + c] = turn[i];
-                }
-            }
-        }
-        // Weighted tilts, then what they move.
-        for l in 0..s {
-            let mut moved = [Vector::zeros(); 4];
-            for k in 0..s {
-                let stretch = h * (1.0 + strains[k][0]);
-                for c in 0..3 {
-                    self.tilt[k][l][c] *= stretch;
-                    moved[1 + c] += b[k] * self.tilt[k][l][c];
-                }
-            }
-            moved[0] = self.directors[l].column(2) * (h * b[l]);
-            for (c, column) in moved.iter().enumerate() {
-                for i in 0..3 {
-                    into.readout[i * size + 4 * l + c] = column[i];
-                }
-            }
-            for j in 0..s {
-                let mut shift = [
-                    self.directors[l].column(2) * (h * a[j][l]),
-                    Vector::zeros(),
-                    Vector::zeros(),
-                    Vector::zeros(),
-                ];
-                for k in 0..s {
-                    for c in 0..3 {
-                        shift[1 + c] += a[j][k] * self.tilt[k][l][c];
-                    }
-                }
-                self.shift[j][l] = shift;
-            }
-        }
-        if loaded {
-            for l in 0..s {
-                for c in 0..4 {
-                    let lever: Vector =
-                        (0..s).map(|k| self.shift[k][l][c].cross(&span.load[k].0) * (h * b[k])).sum();
-                    for i in 0..3 {
-                        into.readout[(6 + i) * size + 4 * l + c] = lever[i];
+                    let (d1, d2, d3) = (stretched[(i, 0)], stretched[(i, 1)], stretched[(i, 2)]);
+                    for l in 0..L {
+                        tilt[j][c][i][l] = d1 * spin[1][l] - d2 * spin[0][l] + d3 * growth[l];
                     }
                 }
             }
         }
-        for j in 0..s {
+        let z_end = times(&z_end, &all(&(exit.rotation.conjugate() * h)));
+        for c in 0..3 {
+            let [_, turn @ ..] = times(&times_unit(&rotation, c), &z_end);
+            for i in 0..3 {
+                into.readout_mut(3 + i, 1 + c).copy_from_slice(&turn[i][..S]);
+            }
+        }
+        // To the positions of the stages, by each strain, and of the end.
+        let mut shift = [[[[0.0; L]; 3]; 4]; S];
+        for i in 0..3 {
+            let d3: Lane<L> = from_fn(|l| h * self.directors[l.min(S - 1)][(i, 2)]);
+            for l in 0..S {
+                into.readout_mut(i, 0)[l] = b[l] * d3[l];
+            }
+            for j in 0..S {
+                for l in 0..L {
+                    shift[j][0][i][l] = a[j][l] * d3[l];
+                }
+            }
+            for c in 0..3 {
+                let mut moved = [0.0; L];
+                for k in 0..S {
+                    add(&mut moved, b[k], &tilt[k][c][i]);
+                }
+                into.readout_mut(i, 1 + c).copy_from_slice(&moved[..S]);
+                for j in 0..S {
+                    for k in 0..S {
+                        add(&mut shift[j][1 + c][i], a[j][k], &tilt[k][c][i]);
+                    }
+                }
+            }
+        }
+        let levers = if span.load.is_empty() { Vec::new() } else { levers(span, &shift, into) };
+        for j in 0..S {
             let d = &self.directors[j];
             let compliance = span.response(j).compliance;
-            let (nu, mu) = (d.tr_mul(&self.force[j]), d.tr_mul(&self.moment[j]));
-            for l in 0..s {
-                for c in 0..4 {
-                    let mut moment = -self.shift[j][l][c].cross(&self.force[j]);
-                    for (k, (p, _)) in span.load.iter().enumerate() {
-                        moment -= self.shift[k][l][c].cross(p) * (h * a[j][k]);
+            let soft = Matrix3::from_diagonal(&compliance.fixed_rows::<3>(1).into_owned());
+            let to_directors = soft * d.transpose();
+            let by_shift = -to_directors * self.force[j].cross_matrix();
+            let (nu, mu) = (-compliance[0] * d.tr_mul(&self.force[j]), -d.tr_mul(&self.moment[j]));
+            let (by_spin, by_growth) = (soft * mu.cross_matrix(), soft * mu);
+            for c in 0..4 {
+                let mut rows = [[0.0; L]; 4];
+                for i in 0..3 {
+                    for m in 0..3 {
+                        add(&mut rows[1 + i], by_shift[(i, m)], &shift[j][c][m]);
                     }
-                    let mut change = d.tr_mul(&moment);
-                    let mut axial = 0.0;
-                    if c > 0 {
-                        let (spin, growth) = &self.spin[j][l][c - 1];
-                        change += mu.cross(spin) + mu * *growth;
-                        axial = nu.x * spin.y - nu.y * spin.x + nu.z * growth;
-                    }
-                    let change = [axial, change.x, change.y, change.z];
-                    for i in 0..4 {
-                        let own = if j == l { self.tangent[j][(i, c)] } else { 0.0 };
-                        into.block[(4 * j + i) * stride + 4 * l + c] = own - compliance[i] * change[i];
-                    }
-                }
-            }
-            for input in 0..inputs {
-                let unit = Vector::ith(input % 3, 1.0);
-                let (mut force, mut moment) = (Vector::zeros(), Vector::zeros());
-                match input / 3 {
-                    0 => force = unit,
-                    1 => moment = unit,
-                    _ => {
-                        // The load turns by -unit.
-                        for (k, (p, c)) in span.load.iter().enumerate() {
-                            force += unit.cross(p) * (h * a[j][k]);
-                            moment += (self.arm[k].cross(&unit.cross(p)) + unit.cross(c)) * (h * a[j][k]);
+                    for (k, lever) in levers.iter().enumerate() {
+                        for m in 0..3 {
+                            add(&mut rows[1 + i], -h * a[j][k] * to_directors[(i, m)], &lever[c][m]);
                         }
                     }
                 }
-                let change = d.tr_mul(&(moment - self.arm[j].cross(&force)));
-                let change = [d.column(2).dot(&force), change.x, change.y, change.z];
-                for i in 0..4 {
-                    into.block[(4 * j + i) * stride + size + input] = -compliance[i] * change[i];
+                if c > 0 {
+                    let (growth, spin) = (&growth[j][c - 1], &spin[j][c - 1]);
+                    for i in 0..3 {
+                        for m in 0..3 {
+                            add(&mut rows[1 + i], by_spin[(i, m)], &spin[m]);
+                        }
+                        add(&mut rows[1 + i], by_growth[i], growth);
+                    }
+                    for l in 0..L {
+                        rows[0][l] = nu.x * spin[1][l] - nu.y * spin[0][l] + nu.z * growth[l];
+                    }
                 }
+                for i in 0..4 {
+                    rows[i][j] += self.tangent[j][(i, c)];
+                    into.block_mut(i, j, c).copy_from_slice(&rows[i][..S]);
+                }
+            }
+            let by_force = to_directors * self.arm[j].cross_matrix();
+            let axial = -compliance[0] * d.column(2);
+            for input in 0..3 {
+                let column = [axial[input], by_force[(0, input)], by_force[(1, input)], by_force[(2, input)]];
+                into.put_input(j, input, column);
+                let column = [0, 1, 2].map(|i| -to_directors[(i, input)]);
+                into.put_input(j, 3 + input, [0.0, column[0], column[1], column[2]]);
+            }
+            // The load turns by -unit.
+            for input in 0..if span.load.is_empty() { 0 } else { 3 } {
+                let unit = Vector::ith(input, 1.0);
+                let (mut force, mut moment) = (Vector::zeros(), Vector::zeros());
+                for (k, (p, c)) in span.load.iter().enumerate() {
+                    force += unit.cross(p) * (h * a[j][k]);
+                    moment += (self.arm[k].cross(&unit.cross(p)) + unit.cross(c)) * (h * a[j][k]);
+                }
+                let change = -to_directors * (moment - self.arm[j].cross(&force));
+                into.put_input(j, 6 + input, [axial.dot(&force), change.x, change.y, change.z]);
             }
         }
         // The lever turns with the load itself, too.
         into.lever = Matrix3::zeros();
-        for (arm, ((p, _), weight)) in self.arm.iter().zip(span.load.iter().zip(b)) {
+        for (arm, ((p, _), weight)) in self.arm.iter().zip(span.load.iter().zip(&span.gauss.weights)) {
             into.lever += arm.cross_matrix() * p.cross_matrix() * (h * weight);
         }
     }
+}
+
+/// `p x shift` at the stages; of all, the moment about the start is put where it is read out.
+fn levers<const S: usize, const L: usize>(
+    span: &Span<'_>,
+    shift: &[[[Lane<L>; 3]; 4]; S],
+    into: &mut Eliminated,
+) -> Vec<[[Lane<L>; 3]; 4]> {
+    let mut levers = vec![[[[0.0; L]; 3]; 4]; S];
+    for (k, (p, _)) in span.load.iter().enumerate() {
+        for c in 0..4 {
+            let [x, y, z] = &shift[k][c];
+            for l in 0..L {
+                levers[k][c][0][l] = p.y * z[l] - p.z * y[l];
+                levers[k][c][1][l] = p.z * x[l] - p.x * z[l];
+                levers[k][c][2][l] = p.x * y[l] - p.y * x[l];
+            }
+            for i in 0..3 {
+                for (sum, lever) in into.readout_mut(6 + i, c).iter_mut().zip(&levers[k][c][i]) {
+                    *sum -= span.length * span.gauss.weights[k] * lever;
+                }
+            }
+        }
+    }
+    levers
 }

@@ -2,26 +2,32 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::dense::{Determinant, backward, determinant, eliminate, forward};
+use super::dense::{Determinant, backward, determinant, dot, eliminate, forward, padded};
 use super::gauss::MAX_DEGREE;
 use crate::section::Strain;
 
 type Vector = Vector3<f64>;
 
+/// The most inputs, padded.
+const MOST_INPUTS: usize = 12;
+
 /// The strains of an element eliminated: their factors, and what is left.
+///
+/// Rows and strains are ordered by components, and within those by stages.
 #[derive(Clone, Debug, Default)]
 pub struct Eliminated {
+    stages: usize,
     inputs: usize,
     outputs: usize,
-    /// `4 s` rows: the factors of the Jacobian, then the response of the strains to the inputs.
-    pub(super) block: Vec<f64>,
+    /// `4 s` rows: the factors of the Jacobian, then the response of the strains to the inputs, padded.
+    block: Vec<f64>,
     swaps: Vec<usize>,
     /// Derivatives of the outputs in the strains, `outputs x 4 s`.
-    pub(super) readout: Vec<f64>,
+    readout: Vec<f64>,
     /// Derivative of the lever in the direction of the load at fixed strains.
     pub lever: Matrix3<f64>,
     /// Derivatives of the outputs (arm, rotation, lever) in the inputs (`N`, `M`, direction of the load).
-    pub flexibility: Vec<f64>,
+    flexibility: [[f64; MOST_INPUTS]; 9],
     /// The least relative pivot.
     pub pivot: f64,
 }
@@ -38,35 +44,69 @@ pub struct Change {
 }
 
 impl Eliminated {
-    /// Makes room for the Jacobian of an element of so many strains.
-    pub(super) fn begin(&mut self, strains: usize, loaded: bool) {
+    /// Makes room for the Jacobian of an element of so many stages.
+    pub(super) fn begin(&mut self, stages: usize, loaded: bool) {
+        self.stages = stages;
         (self.inputs, self.outputs) = if loaded { (9, 9) } else { (6, 6) };
+        let strains = 4 * stages;
         self.block.clear();
-        self.block.resize(strains * (strains + self.inputs), 0.0);
+        self.block.resize(strains * self.width(), 0.0);
         self.readout.clear();
         self.readout.resize(self.outputs * strains, 0.0);
         self.swaps.resize(strains, 0);
     }
 
-    fn stages(&self) -> usize {
-        self.swaps.len() / 4
+    /// Derivatives of component `row` of the law at a stage in a component of the strains, one a stage.
+    pub(super) fn block_mut(&mut self, row: usize, stage: usize, component: usize) -> &mut [f64] {
+        let first = (row * self.stages + stage) * self.width() + component * self.stages;
+        &mut self.block[first..first + self.stages]
+    }
+
+    /// Puts what an input does to the law at a stage.
+    pub(super) fn put_input(&mut self, stage: usize, input: usize, change: [f64; 4]) {
+        let (strains, width) = (4 * self.stages, self.width());
+        for (row, change) in change.into_iter().enumerate() {
+            self.block[(row * self.stages + stage) * width + strains + input] = change;
+        }
+    }
+
+    /// Derivatives of an output in a component of the strains, one a stage.
+    pub(super) fn readout_mut(&mut self, output: usize, component: usize) -> &mut [f64] {
+        let first = (4 * output + component) * self.stages;
+        &mut self.readout[first..first + self.stages]
     }
 
     /// Eliminates the strains: factorises their Jacobian, and reduces what the outputs owe them to the inputs.
     pub fn eliminate(&mut self) {
-        let (size, stride) = (self.swaps.len(), self.swaps.len() + self.inputs);
-        self.pivot = eliminate(&mut self.block, stride, size, &mut self.swaps);
-        self.solve_inputs();
-        self.flexibility.clear();
-        for row in self.readout.chunks_exact(size) {
-            for input in 0..self.inputs {
-                let column = self.block[size + input..].iter().step_by(stride);
-                self.flexibility.push(-row.iter().zip(column).map(|(x, y)| x * y).sum::<f64>());
+        let (size, width) = (self.swaps.len(), self.width());
+        self.pivot = eliminate(&mut self.block, width, size, &mut self.swaps);
+        if self.loaded() { self.reduce::<MOST_INPUTS>() } else { self.reduce::<8>() }
+    }
+
+    /// Back substitution of all inputs at once, row by row, and what they do to the outputs.
+    fn reduce<const INPUTS: usize>(&mut self) {
+        let (size, width) = (self.swaps.len(), self.width());
+        for k in (0..size).rev() {
+            let (head, tail) = self.block.split_at_mut((k + 1) * width);
+            let (factors, row) = head[k * width..].split_at_mut(size);
+            let mut sum = [0.0; INPUTS];
+            for (other, &factor) in tail.chunks_exact(width).zip(&factors[k + 1..]) {
+                add(&mut sum, factor, &other[size..]);
             }
+            let inverse = 1.0 / factors[k];
+            row.iter_mut().zip(&sum).for_each(|(x, y)| *x = (*x - y) * inverse);
         }
-        let loaded = self.loaded();
-        for (i, k) in (0..3).flat_map(|i| (0..3).map(move |k| (i, k))).filter(|_| loaded) {
-            self.flexibility[(6 + i) * self.inputs + 6 + k] += self.lever[(i, k)];
+        for (row, flexibility) in self.readout.chunks_exact(size).zip(&mut self.flexibility) {
+            let mut sum = [0.0; INPUTS];
+            for (response, &factor) in self.block.chunks_exact(width).zip(row) {
+                add(&mut sum, -factor, &response[size..]);
+            }
+            flexibility[..INPUTS].copy_from_slice(&sum);
+        }
+        if self.loaded() {
+            for (i, k) in (0..3).flat_map(|i| (0..3).map(move |k| (i, k))) {
+                self.flexibility[6 + i][6 + k] += self.lever[(i, k)];
+            }
         }
     }
 
@@ -76,17 +116,15 @@ impl Eliminated {
         determinant(&self.block, self.width(), &self.swaps)
     }
 
-    /// The Jacobian of the stages and, beside it, its columns for the inputs: rows of [`Eliminated::width`] numbers,
-    /// as long as the strains are not eliminated.
-    #[must_use]
-    pub fn jacobian(&self) -> &[f64] {
-        &self.block
+    /// The Jacobian of the stages and, beside it, its columns for the inputs, as long as the strains are not eliminated: by rows.
+    pub fn jacobian(&self) -> impl Iterator<Item = (&[f64], &[f64])> {
+        let size = self.swaps.len();
+        self.block.chunks_exact(self.width()).map(move |row| (&row[..size], &row[size..size + self.inputs]))
     }
 
-    /// Number of strains and inputs.
-    #[must_use]
-    pub fn width(&self) -> usize {
-        self.swaps.len() + self.inputs
+    /// Length of a row: strains and padded inputs.
+    fn width(&self) -> usize {
+        4 * self.stages + padded(self.inputs)
     }
 
     /// What the strains do to an output: three rows, of its components, of a number a strain.
@@ -96,52 +134,27 @@ impl Eliminated {
         std::array::from_fn(|i| &self.readout[(3 * output + i) * size..(3 * output + i + 1) * size])
     }
 
-    /// Back substitution of all inputs at once, row by row.
-    fn solve_inputs(&mut self) {
-        let (size, stride) = (self.swaps.len(), self.swaps.len() + self.inputs);
-        for k in (0..size).rev() {
-            let (head, tail) = self.block.split_at_mut((k + 1) * stride);
-            let (factors, row) = head[k * stride..].split_at_mut(size);
-            for (other, &factor) in tail.chunks_exact(stride).zip(&factors[k + 1..]) {
-                for (x, y) in row.iter_mut().zip(&other[size..]) {
-                    *x -= factor * y;
-                }
-            }
-            let inverse = 1.0 / factors[k];
-            row.iter_mut().for_each(|x| *x *= inverse);
-        }
-    }
-
     /// The strains that undo the residual at fixed inputs, and what that does to the outputs.
     pub fn solve(&self, residual: &[Strain], strains: &mut [Strain]) -> Change {
-        let (size, stride) = (self.swaps.len(), self.swaps.len() + self.inputs);
+        let (size, width) = (self.swaps.len(), self.width());
         let mut rhs = [0.0; 4 * MAX_DEGREE];
-        for (j, c) in residual.iter().take(self.stages()).enumerate() {
-            for i in 0..4 {
-                rhs[4 * j + i] = -c[i];
-            }
-        }
-        forward(&self.block, stride, &self.swaps, &mut rhs[..size]);
-        backward(&self.block, stride, &mut rhs[..size]);
-        for (j, strain) in strains.iter_mut().enumerate() {
-            *strain = Strain::from_fn(|i, _| rhs[4 * j + i]);
-        }
-        let row = |output: usize| {
-            let row = &self.readout[output * size..(output + 1) * size];
-            row.iter().zip(&rhs).map(|(x, y)| x * y).sum::<f64>()
-        };
-        let vector = |first: usize| Vector::from_fn(|i, _| row(first + i));
-        let lever = if self.outputs > 6 { vector(6) } else { Vector::zeros() };
-        Change { arm: vector(0), rotation: vector(3), lever }
+        let rhs = &mut rhs[..size];
+        rhs.iter_mut().zip(by_component(&residual[..self.stages], -1.0)).for_each(|(x, y)| *x = y);
+        forward(&self.block, width, &self.swaps, rhs);
+        backward(&self.block, width, rhs);
+        strains.iter_mut().zip(by_stage(rhs)).for_each(|(x, y)| *x = y);
+        let vector = |output: usize| Vector::from(self.readout(output).map(|row| dot(row, rhs)));
+        let lever = if self.outputs > 6 { vector(2) } else { Vector::zeros() };
+        Change { arm: vector(0), rotation: vector(1), lever }
     }
 
     /// Adds to the strains what a change of the inputs does to them.
     pub fn respond(&self, inputs: &[f64; 9], strains: &mut [Strain]) {
-        let (size, stride) = (self.swaps.len(), self.swaps.len() + self.inputs);
+        let (size, width) = (self.swaps.len(), self.width());
         for (j, strain) in strains.iter_mut().enumerate() {
             for i in 0..4 {
-                let row = &self.block[(4 * j + i) * stride + size..(4 * j + i + 1) * stride];
-                strain[i] -= row.iter().zip(inputs).map(|(x, u)| x * u).sum::<f64>();
+                let row = &self.block[(i * self.stages + j) * width + size..];
+                strain[i] -= dot(&row[..self.inputs], &inputs[..self.inputs]);
             }
         }
     }
@@ -152,12 +165,30 @@ impl Eliminated {
         if 3 * output >= self.outputs || 3 * input >= self.inputs {
             return Matrix3::zeros();
         }
-        Matrix3::from_fn(|i, k| self.flexibility[(3 * output + i) * self.inputs + 3 * input + k])
+        Matrix3::from_fn(|i, k| self.flexibility[3 * output + i][3 * input + k])
     }
 
     /// Whether there are distributed loads.
     #[must_use]
     pub fn loaded(&self) -> bool {
         self.inputs > 6
+    }
+}
+
+/// Numbers of an element, four a stage, times a factor, ordered as its strains are.
+pub fn by_component(stages: &[Strain], factor: f64) -> impl Iterator<Item = f64> {
+    (0..4).flat_map(move |i| stages.iter().map(move |stage| factor * stage[i]))
+}
+
+/// The other way round.
+pub fn by_stage(strains: &[f64]) -> impl Iterator<Item = Strain> {
+    let stages = strains.len() / 4;
+    (0..stages).map(move |j| Strain::from_fn(|i, _| strains[i * stages + j]))
+}
+
+/// `x += factor y`.
+fn add<const N: usize>(x: &mut [f64; N], factor: f64, y: &[f64]) {
+    for (x, y) in x.iter_mut().zip(y) {
+        *x += factor * y;
     }
 }

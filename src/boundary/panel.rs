@@ -5,17 +5,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::dense::{Determinant, backward, determinant, eliminate, forward};
+use super::dense::{Determinant, Factors};
 
 /// The factors.
 pub enum Panel {
     /// Of a regular matrix.
-    Regular {
-        /// By rows.
-        block: Vec<f64>,
-        /// Exchanged rows.
-        swaps: Vec<usize>,
-    },
+    Regular(Factors),
     /// Of one that is singular but for rounding.
     Singular {
         /// The inverse on what is regular.
@@ -42,14 +37,11 @@ impl Panel {
     #[must_use]
     pub fn new(matrix: &DMatrix<f64>, sizes: &[f64], nullity: Option<usize>) -> Self {
         let size = matrix.nrows();
-        let mut block: Vec<f64> = matrix.transpose().as_slice().to_vec();
-        let mut swaps = vec![0; size];
-        eliminate(&mut block, size, size, &mut swaps);
         // Nothing is divided by a size that is none.
         let own = matrix.column_iter().map(|column| column.amax());
         let scale = sizes.iter().zip(own).map(|(size, own)| size.max(own));
         let scale = DVector::from_iterator(size, scale.map(|size| if size > 1e-200 { size } else { 1.0 }));
-        let regular = Self::Regular { block, swaps };
+        let regular = Self::Regular(Factors::of(matrix.transpose().as_slice(), size));
         // Of no particular direction.
         let trial = regular.solve((0..size).map(|i| 1.0 + 0.1 * i as f64).collect());
         let largest = trial.iter().zip(scale.iter()).map(|(x, size)| (x * size).abs()).fold(0.0, f64::max);
@@ -93,13 +85,9 @@ impl Panel {
 
     /// Solves.
     #[must_use]
-    pub fn solve(&self, mut rhs: Vec<f64>) -> Vec<f64> {
+    pub fn solve(&self, rhs: Vec<f64>) -> Vec<f64> {
         match self {
-            Self::Regular { block, swaps } => {
-                forward(block, rhs.len(), swaps, &mut rhs);
-                backward(block, rhs.len(), &mut rhs);
-                rhs
-            }
+            Self::Regular(factors) => factors.solve(rhs),
             Self::Singular { inverse, .. } => (inverse * DVector::from_vec(rhs)).as_slice().to_vec(),
         }
     }
@@ -108,7 +96,7 @@ impl Panel {
     #[must_use]
     pub fn kernel(&self) -> &[Vec<f64>] {
         match self {
-            Self::Regular { .. } => &[],
+            Self::Regular(_) => &[],
             Self::Singular { kernel, .. } => kernel,
         }
     }
@@ -117,7 +105,7 @@ impl Panel {
     #[must_use]
     pub fn determinant(&self) -> Determinant {
         match self {
-            Self::Regular { block, swaps } => determinant(block, swaps.len(), swaps),
+            Self::Regular(factors) => factors.determinant(),
             Self::Singular { log, .. } => Determinant { sign: 0.0, log: *log },
         }
     }

@@ -416,7 +416,6 @@ impl System {
     /// constants, and of the states at the end in the strains.
     fn uneliminated(&self, i: usize, anchor: &Anchor) -> [Vec<f64>; 3] {
         let element = &self.elements[i];
-        let strains = 4 * self.mesh.gauss.degree;
         let columns = self.layout.states().iter().chain(self.layout.constants());
         // What a unit change at the start is to the element.
         let changes: Vec<[f64; 9]> = columns
@@ -427,8 +426,7 @@ impl System {
             })
             .collect();
         let (mut jacobian, mut inputs) = (Vec::new(), Vec::new());
-        for row in element.jacobian().chunks_exact(element.width()) {
-            let (own, by_input) = row.split_at(strains);
+        for (own, by_input) in element.jacobian() {
             jacobian.extend_from_slice(own);
             inputs.extend(changes.iter().map(|u| by_input.iter().zip(u).map(|(x, u)| x * u).sum::<f64>()));
         }
@@ -441,7 +439,7 @@ impl System {
                 9.. if element.loaded() => -element.readout(2)[state - 9][k] / self.units.moment,
                 _ => 0.0,
             };
-            readout.extend((0..strains).map(value));
+            readout.extend((0..4 * self.mesh.gauss.degree).map(value));
         }
         [jacobian, inputs, readout]
     }

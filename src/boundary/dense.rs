@@ -1,7 +1,14 @@
 //! Gaussian elimination on small dense blocks, stored by rows.
 
+use pulp::{Arch, NullaryFnOnce};
+
 /// Numbers that are worked on at once: rows are as long as a multiple of it.
 const WIDE: usize = 4;
+
+/// Does work by the widest instructions of this processor. They give the same bits: nothing is fused or summed in another order.
+pub fn wide<W: NullaryFnOnce>(work: W) -> W::Output {
+    Arch::new().dispatch(work)
+}
 
 /// So many numbers, and those that pad them to the length of a row.
 #[must_use]
@@ -21,7 +28,7 @@ pub fn eliminate(block: &mut [f64], stride: usize, pivots: usize, swaps: &mut [u
     macro_rules! of_width {
         ($($width:literal)*) => {
             match stride {
-                $($width => eliminate_rows::<$width>(block.as_chunks_mut().0, pivots, swaps),)*
+                $($width => wide(Elimination::<$width> { rows: block.as_chunks_mut().0, pivots, swaps }),)*
                 _ => panic!("rows of {stride} numbers"),
             }
         };
@@ -29,46 +36,58 @@ pub fn eliminate(block: &mut [f64], stride: usize, pivots: usize, swaps: &mut [u
     of_width!(4 8 12 16 20 24 28 32 36 40 44)
 }
 
-fn eliminate_rows<const WIDTH: usize>(rows: &mut [[f64; WIDTH]], pivots: usize, swaps: &mut [usize]) -> f64 {
-    let mut least = f64::INFINITY;
-    // Of each column, in the pivot rows so far.
-    let mut largest = [0.0_f64; WIDTH];
-    for k in 0..pivots {
-        let (mut pivot, mut size) = (k, 0.0);
-        for (row, entries) in rows.iter().enumerate().skip(k) {
-            if entries[k].abs() > size {
-                (pivot, size) = (row, entries[k].abs());
+struct Elimination<'a, const WIDTH: usize> {
+    rows: &'a mut [[f64; WIDTH]],
+    pivots: usize,
+    swaps: &'a mut [usize],
+}
+
+impl<const WIDTH: usize> NullaryFnOnce for Elimination<'_, WIDTH> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn call(self) -> f64 {
+        let Self { rows, pivots, swaps } = self;
+        let mut least = f64::INFINITY;
+        // Of each column, in the pivot rows so far.
+        let mut largest = [0.0_f64; WIDTH];
+        for k in 0..pivots {
+            let (mut pivot, mut size) = (k, 0.0);
+            for (row, entries) in rows.iter().enumerate().skip(k) {
+                if entries[k].abs() > size {
+                    (pivot, size) = (row, entries[k].abs());
+                }
             }
-        }
-        swaps[k] = pivot;
-        rows.swap(k, pivot);
-        let (head, tail) = rows.split_at_mut(k + 1);
-        // What is left of the row, in whole pieces: nothing is added to the multipliers.
-        let mut rest = head[k];
-        least = least_of(least, rest[k].abs() / largest[k].max(size));
-        if rest[k] == 0.0 {
-            return 0.0;
-        }
-        for (largest, x) in largest.iter_mut().zip(&rest) {
-            *largest = if x.abs() > *largest { x.abs() } else { *largest };
-        }
-        let inverse = 1.0 / rest[k];
-        rest[..=k].fill(0.0);
-        let first = (k + 1) / WIDE;
-        let rest = &rest.as_chunks::<WIDE>().0[first..];
-        for other in tail {
-            let factor = other[k] * inverse;
-            other[k] = factor;
-            if factor != 0.0 {
-                for (piece, rest) in other.as_chunks_mut::<WIDE>().0[first..].iter_mut().zip(rest) {
-                    for i in 0..WIDE {
-                        piece[i] -= factor * rest[i];
+            swaps[k] = pivot;
+            rows.swap(k, pivot);
+            let (head, tail) = rows.split_at_mut(k + 1);
+            // What is left of the row, in whole pieces: nothing is added to the multipliers.
+            let mut rest = head[k];
+            least = least_of(least, rest[k].abs() / largest[k].max(size));
+            if rest[k] == 0.0 {
+                return 0.0;
+            }
+            for (largest, x) in largest.iter_mut().zip(&rest) {
+                *largest = if x.abs() > *largest { x.abs() } else { *largest };
+            }
+            let inverse = 1.0 / rest[k];
+            rest[..=k].fill(0.0);
+            let first = (k + 1) / WIDE;
+            let rest = &rest.as_chunks::<WIDE>().0[first..];
+            for other in tail {
+                let factor = other[k] * inverse;
+                other[k] = factor;
+                if factor != 0.0 {
+                    for (piece, rest) in other.as_chunks_mut::<WIDE>().0[first..].iter_mut().zip(rest) {
+                        for i in 0..WIDE {
+                            piece[i] -= factor * rest[i];
+                        }
                     }
                 }
             }
         }
+        least
     }
-    least
 }
 
 /// A determinant as a sign and a logarithm, for products of many factors neither overflow nor vanish in it.

@@ -31,7 +31,9 @@
 use std::array::from_fn;
 
 use nalgebra::{Matrix3, Matrix4, Quaternion, Vector3};
+use pulp::NullaryFnOnce;
 
+use super::dense::wide;
 use super::eliminated::Eliminated;
 use super::gauss::{Gauss, MAX_DEGREE};
 use super::law::Response;
@@ -134,18 +136,51 @@ impl Default for Stages {
 
 /// The number of stages, and the same made even, known to the compiler: loops over stages are of fixed length.
 macro_rules! of_degree {
-    ($degree:expr, $stages:ident.$method:ident($($argument:expr),*)) => {
+    ($degree:expr, $work:ident { $($argument:ident),* }) => {
         match $degree {
-            1 => $stages.$method::<1, 2>($($argument),*),
-            2 => $stages.$method::<2, 2>($($argument),*),
-            3 => $stages.$method::<3, 4>($($argument),*),
-            4 => $stages.$method::<4, 4>($($argument),*),
-            5 => $stages.$method::<5, 6>($($argument),*),
-            6 => $stages.$method::<6, 6>($($argument),*),
-            7 => $stages.$method::<7, 8>($($argument),*),
-            _ => $stages.$method::<MAX_DEGREE, MAX_DEGREE>($($argument),*),
+            1 => wide($work::<1, 2> { $($argument),* }),
+            2 => wide($work::<2, 2> { $($argument),* }),
+            3 => wide($work::<3, 4> { $($argument),* }),
+            4 => wide($work::<4, 4> { $($argument),* }),
+            5 => wide($work::<5, 6> { $($argument),* }),
+            6 => wide($work::<6, 6> { $($argument),* }),
+            7 => wide($work::<7, 8> { $($argument),* }),
+            _ => wide($work::<MAX_DEGREE, MAX_DEGREE> { $($argument),* }),
         }
     };
+}
+
+struct Evaluation<'a, const S: usize, const L: usize> {
+    stages: &'a mut Stages,
+    span: &'a Span<'a>,
+    entry: &'a Entry,
+    strains: &'a [Strain],
+}
+
+impl<const S: usize, const L: usize> NullaryFnOnce for Evaluation<'_, S, L> {
+    type Output = Exit;
+
+    #[inline(always)]
+    fn call(self) -> Exit {
+        self.stages.evaluated::<S, L>(self.span, self.entry, self.strains)
+    }
+}
+
+struct Linearisation<'a, const S: usize, const L: usize> {
+    stages: &'a Stages,
+    span: &'a Span<'a>,
+    exit: &'a Exit,
+    strains: &'a [Strain],
+    into: &'a mut Eliminated,
+}
+
+impl<const S: usize, const L: usize> NullaryFnOnce for Linearisation<'_, S, L> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        self.stages.linearised::<S, L>(self.span, self.exit, self.strains, self.into);
+    }
 }
 
 /// The vector part of a curvature as a quaternion.
@@ -241,15 +276,18 @@ impl Stages {
 
     /// The stages at these strains, and where the element ends.
     pub fn evaluate(&mut self, span: &Span<'_>, entry: &Entry, strains: &[Strain]) -> Exit {
-        of_degree!(span.gauss.degree, self.evaluated(span, entry, strains))
+        let stages = self;
+        of_degree!(span.gauss.degree, Evaluation { stages, span, entry, strains })
     }
 
     /// Linearises about the stages just evaluated.
     pub fn linearise(&self, span: &Span<'_>, exit: &Exit, strains: &[Strain], into: &mut Eliminated) {
         into.begin(span.gauss.degree, !span.load.is_empty());
-        of_degree!(span.gauss.degree, self.linearised(span, exit, strains, into));
+        let stages = self;
+        of_degree!(span.gauss.degree, Linearisation { stages, span, exit, strains, into });
     }
 
+    #[inline(always)]
     fn evaluated<const S: usize, const L: usize>(
         &mut self,
         span: &Span<'_>,
@@ -316,6 +354,7 @@ impl Stages {
     ///
     /// Row operations multiply from the left. The pivots need no search: the matrix is the identity plus what
     /// turns by less than a right angle on any element that resolves the shape.
+    #[inline(always)]
     fn orient<const S: usize, const L: usize>(&mut self, span: &Span<'_>, entry: &Entry, strains: &[Strain]) {
         let half = 0.5 * span.length;
         let mut m = [[[0.0; L]; 4]; S];
@@ -360,6 +399,7 @@ impl Stages {
         }
     }
 
+    #[inline(always)]
     fn linearised<const S: usize, const L: usize>(
         &self,
         span: &Span<'_>,
@@ -504,6 +544,7 @@ impl Stages {
 }
 
 /// `p x shift` at the stages; of all, the moment about the start is put where it is read out.
+#[inline(always)]
 fn levers<const S: usize, const L: usize>(
     span: &Span<'_>,
     shift: &[[[Lane<L>; 3]; 4]; S],

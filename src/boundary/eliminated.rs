@@ -1,8 +1,9 @@
 //! The strains of an element eliminated: what is left is its flexibility.
 
 use nalgebra::{Matrix3, Vector3};
+use pulp::NullaryFnOnce;
 
-use super::dense::{Determinant, backward, determinant, dot, eliminate, forward, padded};
+use super::dense::{Determinant, backward, determinant, dot, eliminate, forward, padded, wide};
 use super::gauss::MAX_DEGREE;
 use crate::section::Strain;
 
@@ -80,34 +81,7 @@ impl Eliminated {
     pub fn eliminate(&mut self) {
         let (size, width) = (self.swaps.len(), self.width());
         self.pivot = eliminate(&mut self.block, width, size, &mut self.swaps);
-        if self.loaded() { self.reduce::<MOST_INPUTS>() } else { self.reduce::<8>() }
-    }
-
-    /// Back substitution of all inputs at once, row by row, and what they do to the outputs.
-    fn reduce<const INPUTS: usize>(&mut self) {
-        let (size, width) = (self.swaps.len(), self.width());
-        for k in (0..size).rev() {
-            let (head, tail) = self.block.split_at_mut((k + 1) * width);
-            let (factors, row) = head[k * width..].split_at_mut(size);
-            let mut sum = [0.0; INPUTS];
-            for (other, &factor) in tail.chunks_exact(width).zip(&factors[k + 1..]) {
-                add(&mut sum, factor, &other[size..]);
-            }
-            let inverse = 1.0 / factors[k];
-            row.iter_mut().zip(&sum).for_each(|(x, y)| *x = (*x - y) * inverse);
-        }
-        for (row, flexibility) in self.readout.chunks_exact(size).zip(&mut self.flexibility) {
-            let mut sum = [0.0; INPUTS];
-            for (response, &factor) in self.block.chunks_exact(width).zip(row) {
-                add(&mut sum, -factor, &response[size..]);
-            }
-            flexibility[..INPUTS].copy_from_slice(&sum);
-        }
-        if self.loaded() {
-            for (i, k) in (0..3).flat_map(|i| (0..3).map(move |k| (i, k))) {
-                self.flexibility[6 + i][6 + k] += self.lever[(i, k)];
-            }
-        }
+        if self.loaded() { wide(Reduction::<MOST_INPUTS>(self)) } else { wide(Reduction::<8>(self)) }
     }
 
     /// Determinant of the Jacobian of the strains, once they are eliminated.
@@ -175,6 +149,44 @@ impl Eliminated {
     }
 }
 
+/// Back substitution of all inputs at once, row by row, and what they do to the outputs.
+struct Reduction<'a, const INPUTS: usize>(&'a mut Eliminated);
+
+impl<const INPUTS: usize> NullaryFnOnce for Reduction<'_, INPUTS> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let element = self.0;
+        let (size, width) = (element.swaps.len(), element.width());
+        let mut responses = [[0.0; INPUTS]; 4 * MAX_DEGREE];
+        for k in (0..size).rev() {
+            let (factors, row) = element.block[k * width..(k + 1) * width].split_at_mut(size);
+            let mut sum = [0.0; INPUTS];
+            for (response, &factor) in responses[k + 1..size].iter().zip(&factors[k + 1..]) {
+                add(&mut sum, factor, response);
+            }
+            let inverse = 1.0 / factors[k];
+            for i in 0..INPUTS {
+                responses[k][i] = (row[i] - sum[i]) * inverse;
+            }
+            row.copy_from_slice(&responses[k]);
+        }
+        for (row, flexibility) in element.readout.chunks_exact(size).zip(&mut element.flexibility) {
+            let mut sum = [0.0; INPUTS];
+            for (response, &factor) in responses.iter().zip(row) {
+                add(&mut sum, -factor, response);
+            }
+            flexibility[..INPUTS].copy_from_slice(&sum);
+        }
+        if element.loaded() {
+            for (i, k) in (0..3).flat_map(|i| (0..3).map(move |k| (i, k))) {
+                element.flexibility[6 + i][6 + k] += element.lever[(i, k)];
+            }
+        }
+    }
+}
+
 /// Numbers of an element, four a stage, times a factor, ordered as its strains are.
 pub fn by_component(stages: &[Strain], factor: f64) -> impl Iterator<Item = f64> {
     (0..4).flat_map(move |i| stages.iter().map(move |stage| factor * stage[i]))
@@ -187,8 +199,9 @@ pub fn by_stage(strains: &[f64]) -> impl Iterator<Item = Strain> {
 }
 
 /// `x += factor y`.
-fn add<const N: usize>(x: &mut [f64; N], factor: f64, y: &[f64]) {
-    for (x, y) in x.iter_mut().zip(y) {
-        *x += factor * y;
+#[inline(always)]
+fn add<const N: usize>(x: &mut [f64; N], factor: f64, y: &[f64; N]) {
+    for i in 0..N {
+        x[i] += factor * y[i];
     }
 }

@@ -19,6 +19,7 @@ pub struct Family {
     /// At (0), (1), or (0, 0), (1, 0), (0, 1), (1, 1).
     corners: Vec<Arc<Problem>>,
     law_varies: bool,
+    ends_alone: bool,
 }
 
 impl Family {
@@ -51,7 +52,16 @@ impl Family {
             return Err(InvalidInput::new("corners", "different kinds", expected));
         }
         let law_varies = corners.iter().any(|other| !same_law(&first.law, &other.law));
-        Ok(Self { corners, law_varies })
+        let same = |other: &Problem| {
+            let points = first
+                .points
+                .iter()
+                .zip(&other.points)
+                .all(|(a, b)| a.force == b.force && a.moment == b.moment);
+            points && first.line == other.line && first.length == other.length
+        };
+        let ends_alone = !law_varies && corners.iter().all(|other| same(other));
+        Ok(Self { corners, law_varies, ends_alone })
     }
 
     /// The states that the loads need anywhere in the family.
@@ -59,6 +69,12 @@ impl Family {
     pub fn layout(&self) -> Layout {
         let loaded = self.corners.iter().any(|corner| Layout::of(corner) == Layout::Moment);
         if loaded { Layout::Moment } else { Layout::Constant }
+    }
+
+    /// Whether the problems differ in what is asked of their ends alone.
+    #[must_use]
+    pub fn ends_alone(&self) -> bool {
+        self.ends_alone
     }
 
     /// The length at these parameters.

@@ -189,6 +189,29 @@ impl System {
         Ok(())
     }
 
+    /// What a change of the ends alone, over `step`, does to the residual.
+    #[must_use]
+    pub fn by_ends(&self, x: &Iterate, [from, to]: [&[End; 2]; 2], step: f64) -> Residual {
+        let (from, to) = (self.conditions(x, from), self.conditions(x, to));
+        let [start, end] = [0, 1].map(|end| {
+            std::array::from_fn(|i| {
+                let ((_, from), (_, to)) = (&from[end][i], &to[end][i]);
+                (to - from) / step
+            })
+        });
+        let (strains, gaps) =
+            (vec![Strain::zeros(); self.mesh.stages()], vec![[0.0; 9]; self.mesh.elements()]);
+        Residual { strains, gaps, start, end }
+    }
+
+    /// The conditions at both ends: their rows, and minus their residuals.
+    fn conditions(&self, x: &Iterate, ends: &[End; 2]) -> [[Condition; 6]; 2] {
+        [0, 1].map(|i| {
+            let outward = if i == 0 { -1.0 } else { 1.0 };
+            conditions(&ends[i], &x.nodes[i * self.mesh.elements()], outward, &self.units)
+        })
+    }
+
     /// Evaluates the residual and factorises the Jacobian at `x`.
     ///
     /// # Errors
@@ -237,10 +260,7 @@ impl System {
         let count = self.mesh.elements();
         self.residual.gaps.clear();
         self.residual.strains.clear();
-        let [start, end] = [0, 1].map(|i| {
-            let outward = if i == 0 { -1.0 } else { 1.0 };
-            conditions(&targets.ends[i], &x.nodes[i * count], outward, &self.units)
-        });
+        let [start, end] = self.conditions(x, &targets.ends);
         self.residual.start = start.map(|(_, rhs)| rhs);
         self.residual.end = end.map(|(_, rhs)| rhs);
         if pass != Pass::Residual {

@@ -50,6 +50,8 @@ pub struct Held {
     nodes: Arc<Vec<f64>>,
     system: Option<System>,
     bordered: Option<Bordered>,
+    /// Where the equations were linearised.
+    linearised: Option<(HeldState, f64)>,
     motions: Option<usize>,
     /// Motions that change nothing, orthonormal, where the equations were linearised.
     free: Vec<Direction<Correction>>,
@@ -59,6 +61,8 @@ pub struct Held {
 
 /// Change of the parameter by which the equations are differentiated: in twist, length and thickness they are not linear.
 const DIFFERENCE: f64 = 1e-7;
+/// A distance, in the norm of changes, at which the equations are nearly the same.
+const NEAR: f64 = 2e-5;
 /// Elements that are too many.
 const MOST_ELEMENTS: usize = 1000;
 /// Error that a finer mesh is made for, of the tolerance.
@@ -89,6 +93,7 @@ impl Held {
             nodes,
             system: None,
             bordered: None,
+            linearised: None,
             motions: None,
             free: Vec::new(),
             work: Work::default(),
@@ -142,6 +147,7 @@ impl Held {
                     system.units = old.units;
                 }
                 self.free.clear();
+                self.linearised = None;
                 self.nodes = Arc::clone(&x.nodes);
                 Ok(self.system.insert(system))
             }
@@ -222,18 +228,26 @@ impl Equations for Held {
         system.settle(&mut settled, 1.0);
         let (begun, before) = (Instant::now(), system.factorising);
         system.linearise_open(&settled, &goal(&problem))?;
-        let here = system.residual.clone();
         let factorising = system.factorising - before;
         self.work.linearisations += 1;
         self.work.factorisation += factorising;
         self.work.assembly += begun.elapsed() - factorising;
-        let before = self.at.take();
-        self.evaluated(x, t + DIFFERENCE)?;
-        self.at = before;
+        let slope = if self.family.ends_alone() {
+            let ahead = self.family.at(self.in_order(t + DIFFERENCE))?;
+            let [from, to] = [&problem, &ahead].map(|problem| goal(problem).ends);
+            self.system(x, t)?.by_ends(&settled, [&from, &to], DIFFERENCE)
+        } else {
+            let here = self.system(x, t)?.residual.clone();
+            let before = self.at.take();
+            self.evaluated(x, t + DIFFERENCE)?;
+            self.at = before;
+            let system = self.system(x, t)?;
+            let mut slope = std::mem::replace(&mut system.residual, here);
+            slope.subtract(&system.residual, DIFFERENCE);
+            slope
+        };
         let nullity = self.motions;
         let system = self.system(x, t)?;
-        let mut slope = std::mem::replace(&mut system.residual, here);
-        slope.subtract(&system.residual, DIFFERENCE);
         let across = across.map(|across| Line { x: across.x.clone(), t: across.t });
         let begun = Instant::now();
         let bordered = system.bordered(&slope, across.as_ref(), nullity);
@@ -241,6 +255,7 @@ impl Equations for Held {
         let motions = system.motions(&bordered);
         self.work.factorisation += factorising;
         self.bordered = Some(bordered);
+        self.linearised = Some((x.clone(), t));
         self.free.clear();
         for Line { x, t } in motions {
             let motion = self.without_motions(Direction { x, t });
@@ -326,7 +341,10 @@ impl Equations for Held {
         along: &Direction<Correction>,
         most: f64,
     ) -> Result<Option<HeldState>, Failed> {
-        self.linearise(x, t, Some(along))?;
+        if !self.linearised_near(x, t) {
+            self.linearise(x, t, Some(along))?;
+        }
+        self.system(x, t)?;
         let Some(defects) = self.defects(x)? else { return Ok(None) };
         // At right angles to the branch: along it nothing is held.
         let line = self.line();
@@ -471,6 +489,17 @@ impl Held {
     fn defects(&self, x: &HeldState) -> Result<Option<Defects>, Failed> {
         let Some(system) = &self.system else { return Ok(None) };
         Ok(Some(defects(system, &x.x, &goal(&system.mesh.problem))?))
+    }
+
+    /// Whether the equations were linearised so near to a point that an error is told as well by those factors.
+    fn linearised_near(&mut self, x: &HeldState, t: f64) -> bool {
+        let Some((there, before)) = self.linearised.take() else { return false };
+        let known = Arc::ptr_eq(&there.nodes, &x.nodes) && (t - before).abs() < NEAR && {
+            let change = self.difference(&there, x);
+            self.dot(&change, &change) < NEAR * NEAR
+        };
+        self.linearised = Some((there, before));
+        known
     }
 
     /// The change of state and parameter that these gaps stand for.

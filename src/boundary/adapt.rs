@@ -139,6 +139,8 @@ const LEAST_GROWTH: f64 = 1.25;
 const GROWTH: f64 = 4.0;
 /// Lengths of decay that an element spans at most: over many a step from its start amplifies what the ends damp.
 const LONGEST_LAYER: f64 = 4.0;
+/// Part of an element by which the estimates from both ends of the same one differ.
+const ALIKE: f64 = 0.25;
 /// Least density of elements, relative to its mean.
 const LEAST_DENSITY: f64 = 0.1;
 
@@ -181,7 +183,21 @@ pub fn refined(mesh: &Mesh, estimate: &Estimate, tolerance: f64) -> Vec<f64> {
         }
         nodes.push(pair[1]);
     }
-    nodes
+    // What is given at a place stays there.
+    if mesh.problem.breaks().len() > 2 { nodes } else { symmetrised(nodes) }
+}
+
+/// A mesh that is nearly the same from either end, the same. Collocation then has what symmetry the equations have, and branches that break
+/// it meet the others exactly: an error that is not symmetric is an imperfection, of which they miss one another by the third root.
+fn symmetrised(nodes: Vec<f64>) -> Vec<f64> {
+    let (count, length) = (nodes.len(), nodes[nodes.len() - 1]);
+    let other: Vec<f64> = nodes.iter().rev().map(|s| length - s).collect();
+    let alike = (1..count).all(|i| (nodes[i] - other[i]).abs() < ALIKE * (nodes[i] - nodes[i - 1]));
+    if !alike {
+        return nodes;
+    }
+    let mean = |(i, s): (usize, &f64)| if i + 1 < count { 0.5 * (s + other[i]) } else { *s };
+    nodes.iter().enumerate().map(mean).collect()
 }
 
 /// The iterate on another mesh.

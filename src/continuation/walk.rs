@@ -20,8 +20,7 @@ const CHECKED: usize = 4;
 const MOST_POSTPONED: usize = 3;
 /// Meshes of a branch that are too many.
 const MOST_MESHES: usize = 20;
-/// Errors where there are special points, of the tolerance of points, and at most: by its third root two branches that meet may miss one
-/// another.
+/// Errors on which special points are not found, of the tolerance of points, and at most.
 const DISTINCT: f64 = 0.5;
 const MOST_DISTINCT: f64 = 1e-8;
 /// Finer meshes in a row that do not come to that: rounding keeps them.
@@ -185,11 +184,14 @@ impl<'a, E: Equations> Walk<'a, E> {
     fn attempt(&mut self, equations: &mut E) -> Result<Attempt<E>, Failed> {
         equations.expect_motions(Some(self.motions));
         let next = advanced(equations, self.last(), &self.memory, self.step, self.limits)?;
-        if let Some(finer) = self.sharper(equations, &next.point) {
-            self.sharpened += 1;
-            return Ok(Attempt::Coarse(finer));
-        }
-        let found = special_points(equations, self.last(), &next.point, self.limits)?;
+        let found = match special_points(equations, self.last(), &next.point, self.limits) {
+            Ok(found) => found,
+            Err(failed) => {
+                let finer = self.sharper(equations, &next.point).ok_or(failed)?;
+                self.sharpened += 1;
+                return Ok(Attempt::Coarse(finer));
+            }
+        };
         self.sharpened = 0;
         let coarse =
             found.iter().find_map(|found| unresolved(equations, found, self.limits, self.unresolved));
@@ -202,7 +204,8 @@ impl<'a, E: Equations> Walk<'a, E> {
         })
     }
 
-    /// The next point on a finer mesh, if there is something special before it: on a mesh that is too coarse it is looked for in vain.
+    /// The next point on a finer mesh, where something special before it was looked for in vain: by the third root of its error two branches
+    /// that meet may miss one another.
     fn sharper(&self, equations: &mut E, next: &PointOf<E>) -> Option<E::State> {
         if self.sharpened >= MOST_SHARPENED || !unlike(self.last(), next) {
             return None;

@@ -183,17 +183,18 @@ pub fn refined(mesh: &Mesh, estimate: &Estimate, tolerance: f64) -> Vec<f64> {
         }
         nodes.push(pair[1]);
     }
-    // What is given at a place stays there.
-    if mesh.problem.breaks().len() > 2 { nodes } else { symmetrised(nodes) }
+    nodes
 }
 
-/// A mesh that is nearly the same from either end, the same. Collocation then has what symmetry the equations have, and branches that break
-/// it meet the others exactly: an error that is not symmetric is an imperfection, of which they miss one another by the third root.
-fn symmetrised(nodes: Vec<f64>) -> Vec<f64> {
+/// Nodes that are nearly the same from either end, the same, if none of them is a place that is given. Collocation then has what symmetry
+/// the equations have, and branches that break it meet the others exactly: an error that is not symmetric is an imperfection, by the third
+/// root of which they miss one another.
+#[must_use]
+pub fn symmetrised(nodes: Vec<f64>, problem: &Problem) -> Vec<f64> {
     let (count, length) = (nodes.len(), nodes[nodes.len() - 1]);
     let other: Vec<f64> = nodes.iter().rev().map(|s| length - s).collect();
     let alike = (1..count).all(|i| (nodes[i] - other[i]).abs() < ALIKE * (nodes[i] - nodes[i - 1]));
-    if !alike {
+    if !alike || problem.breaks().len() > 2 {
         return nodes;
     }
     let mean = |(i, s): (usize, &f64)| if i + 1 < count { 0.5 * (s + other[i]) } else { *s };

@@ -57,7 +57,7 @@ mod symmetric;
 mod system;
 mod transfer;
 
-pub use adapt::{Defects, Estimate, defects, refined, transferred};
+pub use adapt::{Defects, Estimate, defects, refined, symmetrised, transferred};
 pub use correct::{Bordered, Line};
 pub use deflation::find;
 pub use dense::Determinant;

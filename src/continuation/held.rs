@@ -9,8 +9,8 @@ use super::equations::{Direction, Equations, Failed, Stability, dot, plus, unit}
 use super::locus::Plane;
 use crate::InvalidInput;
 use crate::boundary::{
-    Bordered, Correction, Defects, Estimate, Failure, Family, Iterate, Layout, Line, Mesh, Problem, Spring,
-    Stepper, System, defects, goal, refined, transferred,
+    Bordered, Correction, Defects, Estimate, Failure, Family, Iterate, Layout, Line, Mesh, Problem, Solution,
+    Spring, Stepper, System, defects, goal, refined, symmetrised, transferred,
 };
 use crate::section::Strain;
 
@@ -21,6 +21,18 @@ pub struct HeldState {
     pub nodes: Arc<Vec<f64>>,
     /// The unknowns.
     pub x: Iterate,
+}
+
+impl HeldState {
+    /// A solution, on a mesh that is symmetric if its own nearly is.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    pub fn of(solution: &Solution) -> Result<Self, InvalidInput> {
+        let (problem, nodes) = (solution.problem(), solution.nodes().to_vec());
+        let mesh = Mesh::new(problem, nodes.clone(), solution.degree())?;
+        transferred_to(&mesh, solution.iterate(), symmetrised(nodes, problem), solution.degree())
+    }
 }
 
 /// How long the parts of the work took, but for the rest.
@@ -449,7 +461,7 @@ fn finer(
     tolerance: f64,
     degree: usize,
 ) -> Result<HeldState, Failed> {
-    let nodes = refined(mesh, estimated, tolerance);
+    let nodes = symmetrised(refined(mesh, estimated, tolerance), &mesh.problem);
     if nodes.len() > MOST_ELEMENTS {
         return Err(Failed::Fine(nodes.len()));
     }

@@ -85,14 +85,12 @@ pub fn trace(
     let solution = start.solution();
     let t = (start_value - span[0]) / (span[1] - span[0]);
     let state = {
-        let (nodes, length) = (solution.nodes(), solution.nodes()[solution.nodes().len() - 1]);
-        let x = solution.iterate().clone();
         // The stages are those of its own degree.
         if solution.degree() != degree {
             let expected = format!("a state of degree {degree}");
             return Err(InvalidInput::new("start", solution.degree(), &expected).into());
         }
-        HeldState { nodes: Arc::new(nodes.iter().map(|s| s / length).collect()), x }
+        HeldState::of(solution)?
     };
     let limits = Limits { tolerance: (0.1 * tol).max(1e-14), ..limits(span, &values, max_steps) };
     let asked = Asked { span, values: &values };

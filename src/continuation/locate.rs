@@ -80,17 +80,18 @@ fn between<E: Equations>(
         return between(equations, &middle, b, limits, depth + 1, found);
     }
     let point = located(equations, a, b, kind, turns, limits).ok_or(Failed::Jumped)?;
-    // Those that are not at the same place.
-    let aside = ASIDE * (b.s - a.s);
-    let right = (multiplicity > 1 && depth < DEEPEST && point.s + aside < b.s)
-        .then(|| at(equations, a, b, point.s + aside - a.s))
-        .flatten();
     let changed = |from: &Stability, to: &Stability| match kind {
         SpecialKind::SectionInstability => from.section_index.abs_diff(to.section_index),
         _ => from.index.unwrap_or(0).abs_diff(to.index.unwrap_or(0)),
     };
-    let multiplicity =
-        right.as_ref().map_or(multiplicity, |right| changed(&a.stability, &right.stability).max(1));
+    // Those that are not at the same place: as near as what changes here is told beyond it.
+    let several = multiplicity > 1 && depth < DEEPEST;
+    let right = ASIDE.iter().filter(|_| several).find_map(|part| {
+        let s = point.s + part * (b.s - a.s);
+        let right = if s < b.s { at(equations, a, b, s - a.s) } else { None };
+        right.filter(|right| changed(&a.stability, &right.stability) > 0)
+    });
+    let multiplicity = right.as_ref().map_or(multiplicity, |right| changed(&a.stability, &right.stability));
     found.push(Found { point, kind, multiplicity });
     right.map_or(Ok(()), |right| between(equations, &right, b, limits, depth + 1, found))
 }
@@ -126,7 +127,7 @@ fn sign_changes<S, C>(a: &Point<S, C>, b: &Point<S, C>) -> bool {
 }
 
 /// How far beside a special point, of the interval it was found in, others are not told from it.
-const ASIDE: f64 = 1e-5;
+const ASIDE: [f64; 3] = [1e-5, 1e-4, 1e-3];
 
 /// The point a `length` from `a` toward `b`, across the tangent that turns from one to the other.
 pub fn at<E: Equations>(

@@ -23,6 +23,8 @@ const MOST_MESHES: usize = 20;
 /// Errors on which special points are not found, of the tolerance of points, and at most.
 const DISTINCT: f64 = 0.5;
 const MOST_DISTINCT: f64 = 1e-8;
+/// Distance of two special points, in the span, that may be one.
+const APART: f64 = 1e-6;
 /// Finer meshes in a row that do not come to that: rounding keeps them.
 const MOST_SHARPENED: usize = 2;
 
@@ -184,14 +186,14 @@ impl<'a, E: Equations> Walk<'a, E> {
     fn attempt(&mut self, equations: &mut E) -> Result<Attempt<E>, Failed> {
         equations.expect_motions(Some(self.motions));
         let next = advanced(equations, self.last(), &self.memory, self.step, self.limits)?;
-        let found = match special_points(equations, self.last(), &next.point, self.limits) {
-            Ok(found) => found,
-            Err(failed) => {
-                let finer = self.sharper(equations, &next.point).ok_or(failed)?;
+        let found = special_points(equations, self.last(), &next.point, self.limits);
+        if found.as_ref().map_or(true, |found| are_near(found)) {
+            if let Some(finer) = self.sharper(equations, &next.point) {
                 self.sharpened += 1;
                 return Ok(Attempt::Coarse(finer));
             }
-        };
+        }
+        let found = found?;
         self.sharpened = 0;
         let coarse =
             found.iter().find_map(|found| unresolved(equations, found, self.limits, self.unresolved));
@@ -205,7 +207,7 @@ impl<'a, E: Equations> Walk<'a, E> {
     }
 
     /// The next point on a finer mesh, where something special before it was looked for in vain: by the third root of its error two branches
-    /// that meet may miss one another.
+    /// that meet may miss one another. It also tells apart what is nearly one.
     fn sharper(&self, equations: &mut E, next: &PointOf<E>) -> Option<E::State> {
         if self.sharpened >= MOST_SHARPENED || !unlike(self.last(), next) {
             return None;
@@ -323,6 +325,11 @@ impl<'a, E: Equations> Walk<'a, E> {
     fn last(&self) -> &PointOf<E> {
         &self.branch.points[self.branch.points.len() - 1]
     }
+}
+
+/// Whether two special points are so near that they may be one, which the error of the mesh divides.
+fn are_near<E: Equations>(found: &[Found<E>]) -> bool {
+    found.windows(2).any(|pair| (pair[1].point.t - pair[0].point.t).abs() < APART)
 }
 
 /// The state at a branch point on a finer mesh, if this one is too coarse: a straight ribbon is exact on any mesh, but not the shape into

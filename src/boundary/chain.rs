@@ -1,6 +1,6 @@
 //! Block elimination of a chain of elements with its border.
 //!
-//! Unknown are `n` changes of state `x_i` at each node and `m` constants `p`. With `S` and `F` the six conditions
+//! Unknown are `n` changes of state `x_i` at each node and `m` constants `p`, 12 together. With `S` and `F` the six conditions
 //! at each end, and one row of blocks an element,
 //!
 //! ```text
@@ -321,10 +321,11 @@ impl Chain {
                 }
             }
             let panel = &self.panels[i * self.panel_size()..(i + 1) * self.panel_size()];
+            let known = [next, p].concat();
             let x = &mut head[i * n..];
             for (row, value) in x.iter_mut().enumerate() {
-                let known = &panel[row * stride + n..row * stride + 2 * n + m];
-                *value = kept[i * n + row] - dot(&known[..n], next) - dot(&known[n..], p);
+                let first = row * stride + n;
+                *value = kept[i * n + row] - dot(&panel[first..first + n + m], &known);
             }
             backward(panel, stride, x);
         }

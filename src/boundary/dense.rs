@@ -4,6 +4,8 @@ use pulp::{Arch, NullaryFnOnce};
 
 /// Numbers that are worked on at once: rows are as long as a multiple of it.
 const WIDE: usize = 4;
+/// The longest row.
+const LONGEST: usize = 44;
 
 /// Does work by the widest instructions of this processor. They give the same bits: nothing is fused or summed in another order.
 pub fn wide<W: NullaryFnOnce>(work: W) -> W::Output {
@@ -134,33 +136,68 @@ pub fn forward(block: &[f64], stride: usize, swaps: &[usize], rhs: &mut [f64]) {
     for (k, &pivot) in swaps.iter().enumerate() {
         rhs.swap(k, pivot);
     }
-    for row in 1..rhs.len() {
-        let (known, rest) = rhs.split_at_mut(row);
-        let known = &known[..row.min(swaps.len())];
-        rest[0] -= dot(&block[row * stride..row * stride + known.len()], known);
+    wide(Forward { block, stride, pivots: swaps.len(), rhs });
+}
+
+struct Forward<'a> {
+    block: &'a [f64],
+    stride: usize,
+    pivots: usize,
+    rhs: &'a mut [f64],
+}
+
+impl NullaryFnOnce for Forward<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        // What is not known yet is zero, so that all rows are as long.
+        let (mut known, length) = ([0.0; LONGEST], padded(self.pivots));
+        for (row, (x, factors)) in self.rhs.iter_mut().zip(self.block.chunks_exact(self.stride)).enumerate() {
+            *x -= dot(&factors[..length], &known[..length]);
+            if row < self.pivots {
+                known[row] = *x;
+            }
+        }
     }
 }
 
 /// Solves with the upper triangle of the first `rhs.len()` rows and columns.
 pub fn backward(block: &[f64], stride: usize, rhs: &mut [f64]) {
-    for k in (0..rhs.len()).rev() {
-        let row = &block[k * stride..k * stride + rhs.len()];
-        rhs[k] = (rhs[k] - dot(&row[k + 1..], &rhs[k + 1..])) / row[k];
+    wide(Backward { block, stride, rhs });
+}
+
+struct Backward<'a> {
+    block: &'a [f64],
+    stride: usize,
+    rhs: &'a mut [f64],
+}
+
+impl NullaryFnOnce for Backward<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let (mut known, length) = ([0.0; LONGEST], padded(self.rhs.len()));
+        for (row, x) in self.rhs.iter_mut().enumerate().rev() {
+            let factors = &self.block[row * self.stride..][..length];
+            *x = (*x - dot(factors, &known[..length])) / factors[row];
+            known[row] = *x;
+        }
     }
 }
 
-/// The sum of products.
+/// The sum of products, padded.
+#[inline(always)]
 #[must_use]
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let ((a, rest_a), (b, rest_b)) = (a.as_chunks::<WIDE>(), b.as_chunks::<WIDE>());
     let mut sums = [0.0; WIDE];
-    for (a, b) in a.iter().zip(b) {
+    for (a, b) in a.as_chunks::<WIDE>().0.iter().zip(b.as_chunks::<WIDE>().0) {
         for i in 0..WIDE {
             sums[i] += a[i] * b[i];
         }
     }
-    let rest: f64 = rest_a.iter().zip(rest_b).map(|(a, b)| a * b).sum();
-    sums[0] + sums[1] + (sums[2] + sums[3]) + rest
+    sums[0] + sums[1] + (sums[2] + sums[3])
 }
 
 /// The factors of a square matrix.

@@ -125,10 +125,12 @@ impl Eliminated {
     /// Adds to the strains what a change of the inputs does to them.
     pub fn respond(&self, inputs: &[f64; 9], strains: &mut [Strain]) {
         let (size, width) = (self.swaps.len(), self.width());
+        let mut padded = [0.0; MOST_INPUTS];
+        padded[..self.inputs].copy_from_slice(&inputs[..self.inputs]);
         for (j, strain) in strains.iter_mut().enumerate() {
             for i in 0..4 {
-                let row = &self.block[(i * self.stages + j) * width + size..];
-                strain[i] -= dot(&row[..self.inputs], &inputs[..self.inputs]);
+                let row = (i * self.stages + j) * width;
+                strain[i] -= dot(&self.block[row + size..row + width], &padded);
             }
         }
     }

@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use nalgebra::{Quaternion, Vector3};
 use ribbonrs::boundary::{
-    At, End, Hold, Iterate, Known, Law, Layout, LineLoad, Mesh, Path, PointLoad, Problem, Rod, Settings,
-    Solution, Status, System, Targets,
+    At, End, Extremes, Hold, Iterate, Known, Law, Layout, LineLoad, Mesh, Path, PointLoad, Problem, Rod,
+    Settings, Solution, Status, System, Targets,
 };
 use ribbonrs::growth::Growth;
 use ribbonrs::piecewise::Piecewise;
@@ -244,4 +244,32 @@ fn an_interrupt_is_not_lost() {
     for at in 0..questions {
         assert_eq!(status(at), Status::Interrupted, "{at} of {questions}");
     }
+}
+
+/// Strains that are the same all along but for the error of a polynomial, and strains that are so at the nodes alone.
+#[test]
+fn uniform_states_are_told() {
+    let law = || Law::Rod(Rod { compliance: Strain::new(0.01, 0.01, 1.0, 1.0), intrinsic: Strain::zeros() });
+    let most = Strain::repeat(1e-9);
+    let clamped = |turns: f64, load: f64| {
+        let far = End { position: Vector::new(0.0, 0.0, 1.0), turns, ..End::new(Hold::Clamped) };
+        let ends = [End::new(Hold::Clamped), far];
+        Arc::new(Problem::new(law(), 1.0, ends, vec![], LineLoad::uniform([load, 0.0, 0.0])).unwrap())
+    };
+    // Straight and twisted by a turn.
+    let twisted = solve(&clamped(1.0, 0.0), &Settings::default());
+    let twist = 2.0 * std::f64::consts::PI;
+    assert!(!twisted.extremes().alike(&most));
+    assert!(twisted.is_uniform(&most).unwrap());
+    assert!((twisted.at(0.3).unwrap().strain[3] - twist).abs() < 1e-10);
+    assert!((twisted.extremes().least[3] - twist).abs() < 1e-6);
+    // The ends of a beam that sags between clamps are bent by p L^2/12, its middle by half of that the other way.
+    let sagging = solve(&clamped(0.0, 1e-3), &uniform(5, 1));
+    let [start, middle, end] = [0.0, 0.5, 1.0].map(|s| sagging.at(s).unwrap().strain[2]);
+    assert!((start - end).abs() < 1e-12 && (middle + 0.5 * start).abs() < 1e-9);
+    assert!((start.abs() - 1e-3 / 12.0).abs() < 1e-9);
+    assert!(!sagging.is_uniform(&most).unwrap());
+    assert!(sagging.is_uniform(&Strain::repeat(1e-3)).unwrap());
+    let Extremes { least, greatest } = sagging.extremes();
+    assert!((least[2].abs().max(greatest[2].abs()) - 1e-3 / 12.0).abs() < 1e-9);
 }

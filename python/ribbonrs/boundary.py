@@ -79,7 +79,7 @@ def equilibrium(
     state = state_of(scene, solution, tol, n)
     if guess is None and state.stable is False:
         _warn_unstable(state)
-    _warn_stretched(state)
+    _warn_stretched(scene, solution)
     _warn_kinked(state)
     return state
 
@@ -100,13 +100,13 @@ def _warn_kinked(state: State) -> None:
         warnings.warn(message, RibbonWarning, stacklevel=5)
 
 
-def _warn_stretched(state: State) -> None:
+def _warn_stretched(scene: Scene, solution: _core.BoundarySolution) -> None:
     """Warn where strains are beyond the theory, of the ribbon and not of a law of its own."""
-    if isinstance(state.scene.law, LinearLaw):
+    if isinstance(scene.law, LinearLaw):
         return
-    eps = state.strains[:, 0]
-    largest = float(eps[np.argmax(np.abs(eps))])
-    if abs(largest) > LARGEST_STRAIN + state.scene.growth_size:
+    largest = max((strain[0] for strain in solution.extremes), key=abs)
+    beyond = abs(largest) - LARGEST_STRAIN
+    if beyond > 0.0 and beyond > scene.growth_size:
         message = f"eps = {largest:.3g}: the theory is for strains small against 1"
         warnings.warn(message, RibbonWarning, stacklevel=5)
 

@@ -150,14 +150,8 @@ class Held(_Varying):
     @cached_property
     def uniform(self) -> bool:
         """Whether the strains are the same all along, to the tolerances by which phases are named."""
-        # Where elements meet strains are known: most states that vary do so there.
-        return self._alike(self.breaks) and self._alike(np.linspace(0.0, self.length, 101))
-
-    def _alike(self, S: Array) -> bool:
-        eps, *curvatures = np.ptp(self.strains(S), axis=0)
-        return bool(
-            eps <= SMALL_STRAIN and max(curvatures) <= SMALL_CURVATURE * self.scene.ribbon.thickness_ratio
-        )
+        curvature = SMALL_CURVATURE * self.scene.ribbon.thickness_ratio
+        return self.solution.is_uniform((SMALL_STRAIN, curvature, curvature, curvature))
 
     @cached_property
     def phase(self) -> str:

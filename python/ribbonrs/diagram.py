@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-from . import table
 from .branch import Branch, SpecialPoint
 from .check import number
 from .scene import Scene
@@ -146,11 +145,15 @@ class Diagram:
         RibbonError
             If pandas is not installed.
         """
-        return table.dataframe(self.table())
+        from .table import dataframe
+
+        return dataframe(self.table())
 
     def to_csv(self, path: str | PathLike[str]) -> None:
         """Write `table` as comma-separated values, numbers with all their digits."""
-        table.write(self.table(), path)
+        from .table import write
+
+        write(self.table(), path)
 
     def plot(self, quantity: str = "K3", path: str | PathLike[str] | None = None) -> Figure:
         """Draw a quantity of the branches over the parameter; write the figure to `path` if given.

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import csv
 import io
 import math
 import os
 import re
 from collections.abc import Iterator, Sequence
-from difflib import get_close_matches
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -215,6 +212,8 @@ def _read(path: str | os.PathLike[str]) -> tuple[list[str], list[_Row]]:
 
 def _column(found: str, known: list[str]) -> str:
     """What was expected in place of a column of this name."""
+    from difflib import get_close_matches
+
     words = re.findall(r"\w+", found)
     if len(words) > 1 and (";" in found or "\t" in found or set(words) <= set(known)):
         return "columns separated by commas"
@@ -226,11 +225,14 @@ def _column(found: str, known: list[str]) -> str:
 
 def _lines(path: str | os.PathLike[str]) -> Iterator[tuple[int, list[str]]]:
     """Each line that is not blank or a comment: its number and its cells."""
+    import csv
+
     if not isinstance(path, str | os.PathLike):
         raise InputError("growth.csv", path, "the name of a file")
     name = os.fspath(path)
     try:
-        text = Path(path).read_bytes().decode("utf-8-sig")
+        with open(path, "rb") as file:
+            text = file.read().decode("utf-8-sig")
     except (OSError, ValueError) as error:
         if isinstance(error, UnicodeDecodeError):
             raise InputError("growth.csv", name, f"UTF-8 text, unlike byte {error.start}") from None

@@ -5,7 +5,6 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from difflib import get_close_matches
 from functools import partial
 from typing import Any, TypeAlias
 
@@ -127,11 +126,15 @@ def parameters(scene: Scene) -> tuple[str, ...]:
 
 def parameter_of(scene: Scene, name: object) -> Parameter:
     """Return the parameter of this name; an `InputError` that knows the nearest one if there is none."""
-    known = {parameter.name: parameter for parameter in _all(scene)}
-    if isinstance(name, str) and name in known:
-        return known[name]
+    if isinstance(name, str):
+        for parameter in _all(scene):
+            if parameter.name == name:
+                return parameter
+    known = parameters(scene)
     expected = f"one of {', '.join(known)}" if len(known) <= FEW else "a name that parameters(scene) lists"
     if isinstance(name, str):
+        from difflib import get_close_matches
+
         expected += f"; the nearest is {get_close_matches(name, known, n=1, cutoff=0.0)[0]}"
     raise InputError("trace.parameter", name, expected)
 

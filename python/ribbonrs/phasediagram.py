@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core, table
+from . import _core
 from .arrays import Array, count
 from .check import number, numbers
 from .errors import InputError, RibbonWarning
@@ -208,11 +208,15 @@ class PhaseDiagram:
         RibbonError
             If pandas is not installed.
         """
-        return table.dataframe(self.table())
+        from .table import dataframe
+
+        return dataframe(self.table())
 
     def to_csv(self, path: str | PathLike[str]) -> None:
         """Write `table` as comma-separated values, numbers with all their digits."""
-        table.write(self.table(), path)
+        from .table import write
+
+        write(self.table(), path)
 
     def plot(self, path: str | PathLike[str] | None = None) -> Figure:
         """Draw the regions and their boundaries; write the figure to `path` if given.

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.polynomial.legendre import legadd, legder, leggauss, legmulx, legval, legvander
 from numpy.typing import ArrayLike
 
 from .arrays import Array
@@ -61,7 +60,7 @@ class Pieces:
         xi = ((points - start) + (points - end)) / (end - start)
         # A single piece needs no column of coefficients for every point.
         columns = self._columns[:, 0] if len(self.coefficients) == 1 else self._columns[:, piece]
-        return np.asarray(legval(xi, columns, tensor=False), dtype=np.float64)
+        return np.asarray(np.polynomial.legendre.legval(xi, columns, tensor=False), dtype=np.float64)
 
     @cached_property
     def _columns(self) -> Array:
@@ -77,7 +76,7 @@ class Pieces:
         return Pieces(
             self.breaks,
             tuple(
-                tuple((legder(piece) * 2.0 / (end - start)).tolist())
+                tuple((np.polynomial.legendre.legder(piece) * 2.0 / (end - start)).tolist())
                 for piece, start, end in zip(
                     self.coefficients, self.breaks[:-1], self.breaks[1:], strict=True
                 )
@@ -104,8 +103,10 @@ def added(functions: Sequence[float | Pieces], domain: tuple[float, float]) -> f
     breaks.append(end)
     # Gauss points project a polynomial of degree n - 1 onto the first n Legendre polynomials exactly.
     degree = max(f.degree for f in varying)
-    xi, weights = leggauss(degree + 1)
-    project = (np.arange(degree + 1) + 0.5)[:, None] * legvander(xi, degree).T * weights
+    xi, weights = np.polynomial.legendre.leggauss(degree + 1)
+    project = (
+        (np.arange(degree + 1) + 0.5)[:, None] * np.polynomial.legendre.legvander(xi, degree).T * weights
+    )
     starts, ends = np.array(breaks[:-1]), np.array(breaks[1:])
     points = 0.5 * (starts + ends)[:, None] + 0.5 * (ends - starts)[:, None] * xi
     values = constant + sum(f.evaluate(points) for f in varying)
@@ -133,8 +134,8 @@ def series(polynomial: Sequence[float], start: float, end: float) -> tuple[float
     middle, half = 0.5 * start + 0.5 * end, 0.5 * end - 0.5 * start
     total = [0.0]
     for coefficient in reversed(polynomial):  # Horner's scheme, with polynomials in place of numbers
-        t = middle * np.array(total), half * legmulx(total)
-        total = legadd(legadd(*t), [coefficient]).tolist()
+        t = middle * np.array(total), half * np.polynomial.legendre.legmulx(total)
+        total = np.polynomial.legendre.legadd(np.polynomial.legendre.legadd(*t), [coefficient]).tolist()
     return tuple(total)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -74,6 +73,8 @@ def check_quantity(field: str, quantity: object) -> str:
     )
     expected = f"one of {known}"
     if isinstance(quantity, str):
+        from difflib import get_close_matches
+
         expected += f"; the nearest is {get_close_matches(quantity, QUANTITIES, n=1, cutoff=0.0)[0]}"
     raise InputError(field, quantity, expected)
 

@@ -9,7 +9,6 @@ from itertools import pairwise
 from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.polynomial.legendre import legder, legval, legvander
 
 from .arrays import Array
 from .check import LARGEST
@@ -140,7 +139,7 @@ _Call: TypeAlias = Callable[[Array], Array]
 def _rule(count: int) -> tuple[Array, Array]:
     """Chebyshev points (n,) in (-1, 1), symmetric to the last bit, n odd; P_k at those >= 0."""
     xi: Array = np.sin(np.pi * np.arange(1 - count, count, 2, dtype=np.float64) / (2 * count))
-    return xi, np.asarray(legvander(xi[count // 2 :], count - 1), dtype=np.float64)
+    return xi, np.asarray(np.polynomial.legendre.legvander(xi[count // 2 :], count - 1), dtype=np.float64)
 
 
 @lru_cache(maxsize=16)
@@ -190,8 +189,12 @@ def _series(
 def _met(series: Array, a: float, b: float, checks: Array, size: float) -> tuple[float, ...] | None:
     """The series, without coefficients that are rounding, if it meets the function on [a, b], else None."""
     xi = _checks(checks.size)
-    error = float(np.max(np.abs(legval(xi, series) - checks)))
-    slope = 2.0 / (b - a) * float(np.max(np.abs(legval(xi, legder(series)))))
+    error = float(np.max(np.abs(np.polynomial.legendre.legval(xi, series) - checks)))
+    slope = (
+        2.0
+        / (b - a)
+        * float(np.max(np.abs(np.polynomial.legendre.legval(xi, np.polynomial.legendre.legder(series)))))
+    )
     # Rounding of the values, and of the points at which they are taken.
     if error > 16.0 * EPS * size + 2.0 * EPS * max(abs(a), abs(b)) * slope:
         return None
@@ -200,7 +203,9 @@ def _met(series: Array, a: float, b: float, checks: Array, size: float) -> tuple
     for noise in (max(4.0 * EPS * size, last), 2.0 * EPS * size, 0.5 * EPS * size):
         kept = np.flatnonzero(np.abs(series) > noise)
         short = series[: kept[-1] + 1] if kept.size else np.zeros(1)
-        if float(np.max(np.abs(legval(xi, short) - checks))) <= 2.0 * max(EPS * size, error):
+        if float(np.max(np.abs(np.polynomial.legendre.legval(xi, short) - checks))) <= 2.0 * max(
+            EPS * size, error
+        ):
             return tuple(short.tolist())
     return tuple(series.tolist())
 
@@ -212,7 +217,9 @@ def _low_degree() -> tuple[Array, Array]:
     The polynomial goes through the first nine values and misses the other n - 9.
     """
     nodes, others = _rule(9)[0], _checks(33)
-    through = legvander(others, 8) @ np.linalg.inv(legvander(nodes, 8))
+    through = np.polynomial.legendre.legvander(others, 8) @ np.linalg.inv(
+        np.polynomial.legendre.legvander(nodes, 8)
+    )
     return np.concatenate([nodes, others]), np.hstack([-through, np.eye(others.size)])
 
 
@@ -260,7 +267,9 @@ def _unresolved(call: _Call, a: float, b: float, checks: Array, size: float) -> 
         points = int(np.flatnonzero(np.abs(coefficients) > rounding)[-1])
         return f"{enough}, not about {points}: divide it with breaks="
     xi = _checks(checks.size)
-    worst = float(_between(xi, a, b)[np.argmax(np.abs(legval(xi, coefficients) - checks))])
+    worst = float(
+        _between(xi, a, b)[np.argmax(np.abs(np.polynomial.legendre.legval(xi, coefficients) - checks))]
+    )
     margin = (b - a) / 64
     lo, hi = _pinned(call, max(a, worst - margin), min(b, worst + margin), size)
     place = f"near x = {round(0.5 * (lo + hi), 9) + 0.0:.6g}"

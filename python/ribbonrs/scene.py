@@ -131,7 +131,7 @@ class Scene:
 
     def _check_linear(self) -> None:
         """A linear law of its own knows neither growth nor how the section varies."""
-        if self.growth_size != 0.0:
+        if self.growth.terms and self.growth_size != 0.0:
             raise InputError("growth", self.growth, "none with a LinearLaw, whose intrinsic= says the same")
         for name in ("width_profile", "thickness_profile"):
             if getattr(self.ribbon, name) is not None:
@@ -169,9 +169,24 @@ class Scene:
         thickest = 1.0 if ribbon.thickness_pieces is None else _largest(ribbon.thickness_pieces)
         return self.growth.size(ribbon.thickness_ratio * thickest, ribbon.length_ratio)
 
+    @property
+    def grows_little(self) -> bool:
+        """Whether coefficients alone tell that growth is no reason to warn: much cheaper than its size."""
+        if self.growth.varies or self.ribbon.thickness_pieces is not None:
+            return False
+        bounds = dict.fromkeys(FIELDS, 0.0)
+        for term in self.growth.terms:
+            for key, shape in term.shape:
+                if not isinstance(shape, tuple):
+                    return False
+                lever = self.ribbon.thickness_ratio / 2 if key.startswith("d") else 1.0
+                largest = sum(abs(c) * 0.5**k for k, c in enumerate(shape))  # |x| <= 1/2
+                bounds[key] += lever * largest * abs(cast(float, term.amplitude))
+        return max(bounds.values()) <= GROWTH_WARNING
+
     def _check_growth(self) -> None:
         self.growth.check_covers(self.ribbon.length_ratio)
-        if _surely_small(self.growth, self.ribbon):
+        if self.grows_little:
             return
         size = self.growth_size
         if not size <= GROWTH_LIMIT:  # also true of NaN, where huge terms cancel
@@ -180,21 +195,6 @@ class Scene:
         if size > GROWTH_WARNING:
             message = f"growth.size = {size:.3g}: the theory is for growth small against 1"
             warnings.warn(message, RibbonWarning, stacklevel=3)
-
-
-def _surely_small(growth: Growth, ribbon: Ribbon) -> bool:
-    """Whether the coefficients alone tell that growth is no reason to warn: much cheaper than its size."""
-    if growth.varies or ribbon.thickness_pieces is not None:
-        return False
-    bounds = dict.fromkeys(FIELDS, 0.0)
-    for term in growth.terms:
-        for key, shape in term.shape:
-            if not isinstance(shape, tuple):
-                return False
-            lever = ribbon.thickness_ratio / 2 if key.startswith("d") else 1.0
-            largest = sum(abs(c) * 0.5**k for k, c in enumerate(shape))  # |x| <= 1/2
-            bounds[key] += lever * largest * abs(cast(float, term.amplitude))
-    return max(bounds.values()) <= GROWTH_WARNING
 
 
 def _largest(factor: Pieces) -> float:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .arrays import Array, real_array
-from .course import Course, Held
+from .course import Course, Held, Points
 from .ends import pose
 from .errors import InputError, RibbonWarning
 from .frame import directors
@@ -202,7 +202,7 @@ class State:
     @property
     def directors(self) -> Array:
         """(n, 3, 3): rows d1, d2, d3 in the fixed basis."""
-        return self._nodes.directors
+        return self._directors
 
     @property
     def force(self) -> Array:
@@ -237,11 +237,21 @@ class State:
         return self.scene.law if isinstance(self.scene.law, LinearLaw) else self.section_law
 
     @cached_property
-    def _nodes(self) -> Sections:
-        nodes = self.at(self.S)
-        for array in vars(nodes).values():
+    def _nodes(self) -> Points:
+        nodes = self._points(self.S)
+        for array in nodes:
             array.setflags(write=False)
         return nodes
+
+    @cached_property
+    def _directors(self) -> Array:
+        rows = directors(self._nodes.quaternion)
+        rows.setflags(write=False)
+        return rows
+
+    def _points(self, S: Array) -> Points:
+        """What is known at S (m,), from where the start is."""
+        return self.course.points(S, *map(np.array, pose(self.scene.start)))
 
     def at(self, S: ArrayLike) -> Sections:
         """Return the state at any S in [0, L], a number or an array of any shape and order.
@@ -256,8 +266,7 @@ class State:
         if np.any((points < -END * length) | (points > (1.0 + END) * length)):
             raise InputError("S", S, expected)
         points = np.clip(points, 0.0, length)
-        origin, orientation = map(np.array, pose(self.scene.start))
-        found = self.course.points(points.ravel(), origin, orientation)
+        found = self._points(points.ravel())
         fields = {
             name: values.reshape((*points.shape, values.shape[1])) for name, values in found._asdict().items()
         }

@@ -9,7 +9,6 @@ from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
-from numpy.polynomial.polynomial import polyval
 from numpy.typing import ArrayLike
 
 from .along import Amplitude, check_covers, evaluated
@@ -235,7 +234,7 @@ def _profile(shape: Shape, x: Array, left: bool = False) -> Array:
     """A field at x; where it jumps the value to the right or to the left."""
     if isinstance(shape, Pieces):
         return shape.evaluate(x, left)
-    return np.asarray(polyval(x, np.array(shape)), dtype=np.float64)
+    return np.asarray(np.polynomial.polynomial.polyval(x, np.array(shape)), dtype=np.float64)
 
 
 def _slope(shape: Shape) -> Shape:

@@ -151,6 +151,10 @@ impl Response {
                 // Scaled to a unit diagonal in the ungrown state; congruence keeps the signs.
                 let scale = self.compliance.map(f64::sqrt);
                 let scaled = station.evaluate(strain).hessian.component_mul(&(scale * scale.transpose()));
+                // Most sections are stable, which costs less to tell than all eigenvalues.
+                if (scaled + Matrix4::from_diagonal_element(INDEX_TOLERANCE)).cholesky().is_some() {
+                    return 0;
+                }
                 scaled.symmetric_eigenvalues().iter().filter(|&&value| value < -INDEX_TOLERANCE).count()
             }
         }

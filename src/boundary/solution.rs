@@ -7,10 +7,12 @@ use nalgebra::Vector3;
 use super::adapt::estimate;
 use super::check;
 use super::ends::{At, Hold, directors};
+use super::extremes::Extremes;
 use super::gauss::Gauss;
 use super::iterate::Iterate;
 use super::kinks::Phases;
 use super::known::Guess;
+use super::law::Response;
 use super::mesh::Mesh;
 use super::problem::Problem;
 use super::report::{Report, Status};
@@ -38,6 +40,10 @@ pub struct Solution {
     pub load_potential: f64,
     /// Largest number of negative eigenvalues of the tangent stiffness of a section, at stages and nodes.
     pub section_index: usize,
+    /// Between which values the strains at nodes are, on both sides of them.
+    at_nodes: Extremes,
+    /// The same at stages.
+    at_stages: Extremes,
     /// Number of independent ways to lower the energy under the end conditions, where every section is stable and the
     /// loads have a potential; gliding and rolling of a closed ribbon are none.
     pub index: Option<usize>,
@@ -87,7 +93,8 @@ pub struct Energies {
 pub fn energies(mesh: &Mesh, x: &Iterate) -> Result<Energies, InvalidInput> {
     let (problem, degree) = (&mesh.problem, mesh.gauss.degree);
     let (mut elastic, mut load) = (0.0, 0.0);
-    let mut stepper = Stepper::new(problem, mesh.gauss)?;
+    // Only a force along the line asks where the stages are.
+    let mut stepper = problem.has_line_force().then(|| Stepper::new(problem, mesh.gauss)).transpose()?;
     for i in 0..mesh.elements() {
         let mut made = Vec::new();
         let responses = mesh.responses(i, &mut made)?;
@@ -101,7 +108,7 @@ pub fn energies(mesh: &Mesh, x: &Iterate) -> Result<Energies, InvalidInput> {
             let resultants =
                 resultants.zip_map(&response.compliance, |v, c| if c > 0.0 { v / c } else { 0.0 });
             elastic += weight * response.energy(&strain, &resultants);
-            if problem.has_line_force() {
+            if let Some(stepper) = &mut stepper {
                 let strains = |y: f64| x.strain(mesh, i, c * y);
                 let (at, _) = stepper.step(&x.nodes[i], s, c * h, strains, false)?;
                 load -= weight * problem.line_load(s + c * h).0.dot(&at.position);
@@ -166,11 +173,26 @@ impl Solution {
             let found = format!("{count} nodes, {} states, {} strains", x.nodes.len(), x.strains.len());
             return Err(InvalidInput::new("parts", found, "a state a node and `degree` strains an element"));
         }
-        let mesh = Mesh::new(&problem, nodes.clone(), degree)?;
-        let Energies { elastic: energy, load: load_potential } = energies(&mesh, &x)?;
+        let mesh = Mesh::new(&problem, nodes, degree)?;
+        let mut solution = Self::on(&mesh, x, report)?;
+        if solution.section_index == 0 && solution.report.fraction == 1.0 {
+            solution.index = System::new(mesh)?.index(&solution.x, &goal(&problem));
+        }
+        Ok(solution)
+    }
+
+    /// The solution on a mesh, without its stability index.
+    fn on(mesh: &Mesh, x: Iterate, report: Report) -> Result<Self, InvalidInput> {
+        let (problem, degree) = (Arc::clone(&mesh.problem), mesh.gauss.degree);
+        let Energies { elastic: energy, load: load_potential } = energies(mesh, &x)?;
         let mut section_index = 0;
-        for (response, strain) in (0..count).flat_map(|node| sections_at(&mesh, &x, node)) {
-            section_index = section_index.max(response.index(&strain));
+        let (mut at_nodes, mut at_stages) = (Extremes::default(), Extremes::default());
+        let mut take = |extremes: &mut Extremes, response: &Response, strain: &Strain| {
+            section_index = section_index.max(response.index(strain));
+            extremes.take(strain);
+        };
+        for (response, strain) in (0..mesh.nodes.len()).flat_map(|node| sections_at(mesh, &x, node)) {
+            take(&mut at_nodes, &response, &strain);
         }
         for i in 0..mesh.elements() {
             let mut made = Vec::new();
@@ -178,15 +200,24 @@ impl Solution {
             let strains = &x.strains[i * degree..(i + 1) * degree];
             // A uniform ribbon has one law for all stages.
             for (response, strain) in responses.iter().cycle().zip(strains) {
-                section_index = section_index.max(response.index(strain));
+                take(&mut at_stages, response, strain);
             }
         }
-        let index = if section_index == 0 && report.fraction == 1.0 {
-            System::new(mesh)?.index(&x, &goal(&problem))
-        } else {
-            None
-        };
-        Ok(Self { problem, degree, nodes, x, report, energy, load_potential, section_index, index })
+        let nodes = mesh.nodes.clone();
+        let index = None;
+        Ok(Self {
+            problem,
+            degree,
+            nodes,
+            x,
+            report,
+            energy,
+            load_potential,
+            section_index,
+            at_nodes,
+            at_stages,
+            index,
+        })
     }
 
     /// A solution that was found otherwise, with its error and its residual.
@@ -199,29 +230,35 @@ impl Solution {
         nodes: Vec<f64>,
         x: Iterate,
     ) -> Result<Self, InvalidInput> {
-        let mesh = Mesh::new(&problem, nodes.clone(), degree)?;
+        let mesh = Mesh::new(&problem, nodes, degree)?;
         let residual = check::residual(&mesh, &x)?;
         let mut system = System::new(mesh)?;
+        let goal = goal(&problem);
+        let regular = system.linearise(&x, &goal).is_ok();
         // Where the equations are singular the error is not known.
-        let error = match system.linearise(&x, &goal(&problem)) {
-            Ok(()) => estimate(&mut system, &x, &goal(&problem))?.error,
-            Err(_) => f64::INFINITY,
-        };
-        let condition = system.condition();
+        let error = if regular { estimate(&mut system, &x, &goal)?.error } else { f64::INFINITY };
         let report = Report {
             status: Status::Converged,
             reason: String::new(),
             fraction: 1.0,
             error,
             residual,
-            condition,
+            condition: system.condition(),
             iterations: 0,
             factorisations: 0,
             meshes: 1,
             load_steps: 0,
             norms: Vec::new(),
         };
-        Self::from_parts(problem, degree, nodes, x, report)
+        let mut solution = Self::on(&system.mesh, x, report)?;
+        if solution.section_index == 0 {
+            solution.index = if regular {
+                system.index_here(&solution.x, goal.load, &[])
+            } else {
+                system.index(&solution.x, &goal)
+            };
+        }
+        Ok(solution)
     }
 
     /// The problem.
@@ -250,6 +287,34 @@ impl Solution {
         let mesh = Mesh::new(&self.problem, self.nodes.clone(), self.degree)?;
         let kinks = Phases::of(&mesh, &self.x)?.kinks;
         Ok(kinks.into_iter().filter(|s| self.nodes.contains(s)).collect())
+    }
+
+    /// Between which values the strains are, at stages and nodes.
+    #[must_use]
+    pub fn extremes(&self) -> Extremes {
+        self.at_nodes.with(&self.at_stages)
+    }
+
+    /// Whether no strain differs by more than this along the ribbon.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    pub fn is_uniform(&self, most: &Strain) -> Result<bool, InvalidInput> {
+        // Most states that vary do so at the nodes, and of most others the stages are alike, too.
+        let at_nodes = self.at_nodes.alike(most);
+        if !at_nodes || self.extremes().alike(most) {
+            return Ok(at_nodes);
+        }
+        // Stages may differ by the error of a polynomial alone, which the states there do not have.
+        let gauss = Gauss::of(self.degree);
+        let within = |pair: &[f64]| {
+            let (from, length) = (pair[0], pair[1] - pair[0]);
+            gauss.nodes.iter().map(move |c| from + c * length)
+        };
+        let places: Vec<f64> = self.nodes.windows(2).flat_map(within).collect();
+        let mut extremes = self.at_nodes;
+        self.many(&places)?.iter().for_each(|state| extremes.take(&state.strain));
+        Ok(extremes.alike(most))
     }
 
     /// States at the nodes and strains at the stages.

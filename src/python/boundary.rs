@@ -278,6 +278,18 @@ impl BoundarySolution {
         self.solution.section_index
     }
 
+    /// The least and the greatest of each strain, at the stages and at the nodes.
+    #[getter]
+    fn extremes(&self) -> [[f64; 4]; 2] {
+        let extremes = self.solution.extremes();
+        [extremes.least.into(), extremes.greatest.into()]
+    }
+
+    /// Whether no strain differs by more than this along the ribbon.
+    fn is_uniform(&self, py: Python<'_>, most: [f64; 4]) -> PyResult<bool> {
+        Ok(py.detach(|| self.solution.is_uniform(&most.into()))?)
+    }
+
     /// The stability index under the end conditions; None where it cannot be told.
     #[getter]
     fn index(&self) -> Option<usize> {

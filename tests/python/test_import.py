@@ -30,6 +30,18 @@ def test_import_costs_at_most_60_ms_beyond_numpy():
     assert any(float(run(TIMED)) <= 0.060 for _ in range(20))
 
 
+def test_solving_and_tracing_need_no_tables_files_or_functions_of_s():
+    program = """
+import numpy, sys
+known = set(sys.modules)
+import ribbonrs as rb
+scene = rb.Scene(rb.Ribbon(10, 1, 0.1), rb.growth.edge(0.06), end=rb.Free(force=(1e-5, 0, 0)))
+rb.trace(scene, "growth.edge.amplitude", (0.0, 0.02), start=None).branches[0].state(-1).position
+print(*(set(sys.modules) - known))
+"""
+    assert not {"csv", "difflib", "json", "numpy.polynomial", "tempfile"} & set(run(program).split())
+
+
 def test_solving_and_saving_data_needs_no_heavy_package(tmp_path):
     program = f"""
 import sys, ribbonrs as rb

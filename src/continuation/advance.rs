@@ -7,9 +7,11 @@ use super::predict::weights;
 
 /// The error of a prediction that steps are made for.
 const PREDICTION: f64 = 5e-3;
-/// An error of a prediction, and a cosine of the angle between tangents, that no step may have.
+/// An error of a prediction, and a cosine of the angle between tangents, that no step may have; how far ahead along the last tangent it must
+/// lead, of its length: where a branch turns as fast as steps change a prediction may be behind.
 const FAR: f64 = 8.0 * PREDICTION;
 const TURN: f64 = 0.7;
+const AHEAD: f64 = 0.5;
 
 /// A point that a step led to.
 pub struct Advanced<E: Equations> {
@@ -71,35 +73,36 @@ pub fn advanced<E: Equations>(
         let guess = Guess { x: guess.0, t: end, across: None, sense: Some(&last.along) };
         let Corrected { mut point, first } = corrected(equations, guess, limits.tolerance, ROUGHLY)?;
         point.t = end;
-        near(equations, last, &point, first, length)?;
-        point.s = last.s + arc(equations, last, &point);
+        point.s = last.s + near(equations, last, &point, first, length)?;
         return Ok(Advanced { point, order: memory.len(), error: first, at_end: true });
     }
     let guess = Guess { x, t, across: Some(&last.along), sense: Some(&last.along) };
     let Corrected { mut point, first } = corrected(equations, guess, limits.tolerance, ROUGHLY)?;
-    near(equations, last, &point, first, step)?;
+    let length = near(equations, last, &point, first, step)?;
     if outside(point.t) {
         // A shorter step meets the end.
         return Err(Failed::Jumped);
     }
-    point.s = last.s + arc(equations, last, &point);
+    point.s = last.s + length;
     Ok(Advanced { point, order: memory.len(), error: first, at_end: false })
 }
 
-/// The arclength from a point to the next.
-fn arc<E: Equations>(equations: &mut E, from: &PointOf<E>, to: &PointOf<E>) -> f64 {
-    let change = difference(equations, from, to);
-    arclength(equations, [from, to], &change)
-}
-
-/// Refuses a point that is not the next one.
+/// The arclength from a point to the next, a step away.
+///
+/// # Errors
+/// If that is not the next one.
 fn near<E: Equations>(
-    equations: &E,
+    equations: &mut E,
     last: &PointOf<E>,
     point: &PointOf<E>,
     first: f64,
     step: f64,
-) -> Result<(), Failed> {
+) -> Result<f64, Failed> {
+    let change = difference(equations, last, point);
+    let ahead = dot(equations, &last.along, &change);
     let turned = dot(equations, &last.along, &point.along);
-    if first > FAR.min(0.5 * step) || turned < TURN { Err(Failed::Jumped) } else { Ok(()) }
+    if first > FAR.min(0.5 * step) || turned < TURN || ahead < AHEAD * step {
+        return Err(Failed::Jumped);
+    }
+    Ok(arclength(equations, [last, point], &change))
 }

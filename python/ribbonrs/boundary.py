@@ -31,6 +31,9 @@ HIGHEST = 8
 LARGEST_STRAIN = 0.1
 """Axial strain beyond that of growth that the theory is good for."""
 
+SLACK = 1e-6
+"""How far beyond that, relative to it, the error of a solution may put a ribbon that is pressed by just as much."""
+
 SAMPLES = 201
 """Points at which a guess is handed to the core, besides its own breaks."""
 
@@ -105,7 +108,7 @@ def _warn_stretched(scene: Scene, solution: _core.BoundarySolution) -> None:
     if isinstance(scene.law, LinearLaw):
         return
     largest = max((strain[0] for strain in solution.extremes), key=abs)
-    beyond = abs(largest) - LARGEST_STRAIN
+    beyond = abs(largest) - LARGEST_STRAIN * (1.0 + SLACK)
     if beyond > 0.0 and beyond > scene.growth_size:
         message = f"eps = {largest:.3g}: the theory is for strains small against 1"
         warnings.warn(message, RibbonWarning, stacklevel=5)

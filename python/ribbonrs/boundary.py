@@ -32,7 +32,7 @@ LARGEST_STRAIN = 0.1
 """Axial strain beyond that of growth that the theory is good for."""
 
 SLACK = 1e-6
-"""How far beyond that, relative to it, the error of a solution may put a ribbon that is pressed by just as much."""
+"""How far beyond that, relative to it, errors may put a ribbon that is pressed by just as much."""
 
 SAMPLES = 201
 """Points at which a guess is handed to the core, besides its own breaks."""

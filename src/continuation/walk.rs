@@ -187,11 +187,11 @@ impl<'a, E: Equations> Walk<'a, E> {
         equations.expect_motions(Some(self.motions));
         let next = advanced(equations, self.last(), &self.memory, self.step, self.limits)?;
         let found = special_points(equations, self.last(), &next.point, self.limits);
-        if found.as_ref().map_or(true, |found| are_near(found)) {
-            if let Some(finer) = self.sharper(equations, &next.point) {
-                self.sharpened += 1;
-                return Ok(Attempt::Coarse(finer));
-            }
+        if found.as_ref().map_or(true, |found| are_near(found))
+            && let Some(finer) = self.sharper(equations, &next.point)
+        {
+            self.sharpened += 1;
+            return Ok(Attempt::Coarse(finer));
         }
         let found = found?;
         self.sharpened = 0;

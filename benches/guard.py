@@ -6,8 +6,8 @@
 A unit is an energy, gradient and Hessian of a section, a segment of a frame, or an element of a Newton
 iteration: see benches/guard.rs. Two runs with different repetitions differ by the work alone, not by start
 and set-up. Counts do not depend on what else the machine does. They do depend on the compiler, on the C
-library and on the instructions that valgrind offers, so the file says with which they were counted; after a
-change of those it is written anew.
+library, so the file says with which they were counted; after a change of those it is written anew. They are
+those of any processor: of wider ones, which the program uses where there are some, valgrind knows not all.
 """
 
 from __future__ import annotations
@@ -35,7 +35,8 @@ def output(*command: str) -> str:
 
 def built() -> str:
     """The program that does the work, built."""
-    command = ["cargo", "build", "--quiet", "--release", "--example", "guard", "--message-format=json"]
+    options = ["--features=baseline", "--example=guard", "--message-format=json"]
+    command = ["cargo", "build", "--quiet", "--release", *options]
     lines = subprocess.run(
         command, cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE
     ).stdout.splitlines()

@@ -488,26 +488,31 @@ impl Stages {
             let (by_spin, by_growth) = (soft * mu.cross_matrix(), soft * mu);
             for c in 0..4 {
                 let mut rows = [[0.0; L]; 4];
+                let [x, y, z] = &shift[j][c];
                 for i in 0..3 {
-                    for m in 0..3 {
-                        add(&mut rows[1 + i], by_shift[(i, m)], &shift[j][c][m]);
+                    let (gx, gy, gz) = (by_shift[(i, 0)], by_shift[(i, 1)], by_shift[(i, 2)]);
+                    for l in 0..L {
+                        rows[1 + i][l] = gx * x[l] + gy * y[l] + gz * z[l];
                     }
-                    for (k, lever) in levers.iter().enumerate() {
+                }
+                for (k, lever) in levers.iter().enumerate() {
+                    for i in 0..3 {
                         for m in 0..3 {
                             add(&mut rows[1 + i], -h * a[j][k] * to_directors[(i, m)], &lever[c][m]);
                         }
                     }
                 }
                 if c > 0 {
-                    let (growth, spin) = (&growth[j][c - 1], &spin[j][c - 1]);
+                    let (growth, [x, y, z]) = (&growth[j][c - 1], &spin[j][c - 1]);
                     for i in 0..3 {
-                        for m in 0..3 {
-                            add(&mut rows[1 + i], by_spin[(i, m)], &spin[m]);
+                        let (gx, gy, gz, g) =
+                            (by_spin[(i, 0)], by_spin[(i, 1)], by_spin[(i, 2)], by_growth[i]);
+                        for l in 0..L {
+                            rows[1 + i][l] += gx * x[l] + gy * y[l] + gz * z[l] + g * growth[l];
                         }
-                        add(&mut rows[1 + i], by_growth[i], growth);
                     }
                     for l in 0..L {
-                        rows[0][l] = nu.x * spin[1][l] - nu.y * spin[0][l] + nu.z * growth[l];
+                        rows[0][l] = nu.x * y[l] - nu.y * x[l] + nu.z * growth[l];
                     }
                 }
                 for i in 0..4 {

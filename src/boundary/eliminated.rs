@@ -50,8 +50,10 @@ impl Eliminated {
         self.stages = stages;
         (self.inputs, self.outputs) = if loaded { (9, 9) } else { (6, 6) };
         let strains = 4 * stages;
-        self.block.clear();
-        self.block.resize(strains * self.width(), 0.0);
+        // All of it is put but what pads the inputs.
+        let width = self.width();
+        self.block.resize(strains * width, 0.0);
+        self.block.chunks_exact_mut(width).for_each(|row| row[strains..].fill(0.0));
         self.readout.clear();
         self.readout.resize(self.outputs * strains, 0.0);
         self.swaps.resize(strains, 0);

@@ -1,5 +1,6 @@
 """Settings for every test, and a scene in a file."""
 
+import os
 import signal
 from pathlib import Path
 
@@ -10,6 +11,9 @@ from ribbonrs.scenefile import read
 # The same examples on every machine, however slow it is.
 settings.register_profile("fixed", deadline=None, derandomize=True, database=None)
 settings.load_profile("fixed")
+
+# Programs that are started import what is compiled already, as those of a user do.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 # Also where the shell started this in the background, without interrupts.
 signal.signal(signal.SIGINT, signal.default_int_handler)

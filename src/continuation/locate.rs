@@ -84,14 +84,21 @@ fn between<E: Equations>(
         SpecialKind::SectionInstability => from.section_index.abs_diff(to.section_index),
         _ => from.index.unwrap_or(0).abs_diff(to.index.unwrap_or(0)),
     };
-    // Those that are not at the same place: as near as what changes here is told beyond it.
-    let several = multiplicity > 1 && depth < DEEPEST;
-    let right = ASIDE.iter().filter(|_| several).find_map(|part| {
+    // Those that are not at the same place: as near as what changes here is told beyond it, or as near as may be.
+    let mut right = None;
+    for part in ASIDE.iter().filter(|_| multiplicity > 1 && depth < DEEPEST) {
         let s = point.s + part * (b.s - a.s);
-        let right = if s < b.s { at(equations, a, b, s - a.s) } else { None };
-        right.filter(|right| changed(&a.stability, &right.stability) > 0)
-    });
-    let multiplicity = right.as_ref().map_or(multiplicity, |right| changed(&a.stability, &right.stability));
+        let beyond = if s < b.s { at(equations, a, b, s - a.s) } else { None };
+        let told = beyond.as_ref().is_some_and(|beyond| changed(&a.stability, &beyond.stability) > 0);
+        if told || right.is_none() {
+            right = beyond;
+        }
+        if told {
+            break;
+        }
+    }
+    let multiplicity =
+        right.as_ref().map_or(multiplicity, |right| changed(&a.stability, &right.stability).max(1));
     found.push(Found { point, kind, multiplicity });
     right.map_or(Ok(()), |right| between(equations, &right, b, limits, depth + 1, found))
 }
@@ -127,7 +134,7 @@ fn sign_changes<S, C>(a: &Point<S, C>, b: &Point<S, C>) -> bool {
 }
 
 /// How far beside a special point, of the interval it was found in, others are not told from it.
-const ASIDE: [f64; 3] = [1e-5, 1e-4, 1e-3];
+const ASIDE: [f64; 4] = [1e-5, 1e-4, 1e-3, 1e-2];
 
 /// The point a `length` from `a` toward `b`, across the tangent that turns from one to the other.
 pub fn at<E: Equations>(

@@ -31,9 +31,6 @@ HIGHEST = 8
 LARGEST_STRAIN = 0.1
 """Axial strain beyond that of growth that the theory is good for."""
 
-SLACK = 1e-6
-"""How far beyond that, relative to it, errors may put a ribbon that is pressed by just as much."""
-
 SAMPLES = 201
 """Points at which a guess is handed to the core, besides its own breaks."""
 
@@ -82,7 +79,7 @@ def equilibrium(
     state = state_of(scene, solution, tol, n)
     if guess is None and state.stable is False:
         _warn_unstable(state)
-    _warn_stretched(scene, solution)
+    _warn_stretched(state, solution)
     _warn_kinked(state)
     return state
 
@@ -103,13 +100,16 @@ def _warn_kinked(state: State) -> None:
         warnings.warn(message, RibbonWarning, stacklevel=5)
 
 
-def _warn_stretched(scene: Scene, solution: _core.BoundarySolution) -> None:
+def _warn_stretched(state: State, solution: _core.BoundarySolution) -> None:
     """Warn where strains are beyond the theory, of the ribbon and not of a law of its own."""
-    if isinstance(scene.law, LinearLaw):
+    if isinstance(state.scene.law, LinearLaw):
         return
-    largest = max((strain[0] for strain in solution.extremes), key=abs)
-    beyond = abs(largest) - LARGEST_STRAIN * (1.0 + SLACK)
-    if beyond > 0.0 and beyond > scene.growth_size:
+    # What is far below the limit at stages and nodes is below it between them, too.
+    if max(abs(strain[0]) for strain in solution.extremes) <= LARGEST_STRAIN / 2.0:
+        return
+    eps = state.strains[:, 0]
+    largest = float(eps[np.argmax(np.abs(eps))])
+    if abs(largest) > LARGEST_STRAIN + state.scene.growth_size:
         message = f"eps = {largest:.3g}: the theory is for strains small against 1"
         warnings.warn(message, RibbonWarning, stacklevel=5)
 

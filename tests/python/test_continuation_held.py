@@ -113,7 +113,8 @@ def test_no_tolerance_leads_back_to_the_symmetric_branch(tol):
     np.testing.assert_allclose(places(other, "fold"), places(fine, "fold"), rtol=tol)
     assert len(places(other, "fold")) == 2
     ends = [np.abs(diagram.branches[1].state(-1).reactions.start.force) for diagram in (fine, other)]
-    np.testing.assert_allclose(ends[1], ends[0], rtol=tol)
+    # Of a force that is small beside the others no more digits are asked for.
+    np.testing.assert_allclose(ends[1], ends[0], rtol=0.0, atol=tol * ends[0].max())
 
 
 # --- an independent count

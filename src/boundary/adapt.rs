@@ -250,3 +250,33 @@ pub fn transferred_strains(strains: &[Strain], from: &Mesh, to: &Mesh) -> Vec<St
 fn element(mesh: &Mesh, s: f64) -> usize {
     mesh.nodes.partition_point(|&node| node <= s).clamp(1, mesh.elements()) - 1
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use nalgebra::Vector3;
+
+    use super::*;
+    use crate::boundary::{End, Hold, Law, LineLoad, PointLoad, Rod};
+
+    #[test]
+    fn meshes_that_are_nearly_symmetric_are_made_so() {
+        let rod = Rod { compliance: Strain::repeat(1.0), intrinsic: Strain::zeros() };
+        let ends = [End::new(Hold::Clamped), End::new(Hold::Free)];
+        let with = |points| {
+            Arc::new(Problem::new(Law::Rod(rod), 4.0, ends, points, LineLoad::uniform([0.0; 3])).unwrap())
+        };
+        let free = with(Vec::new());
+        let nodes = vec![0.0, 0.95, 2.05, 3.1, 4.0];
+        let found = symmetrised(nodes.clone(), &free);
+        assert_eq!((found[0], found[4]), (0.0, 4.0));
+        assert!((1..4).all(|i| (found[i] + found[4 - i] - 4.0).abs() < 1e-15));
+        assert!((1..4).all(|i| (found[i] - nodes[i]).abs() < 0.06));
+        // What is finer at one end on purpose stays, and so does the place of a load.
+        let graded = vec![0.0, 0.2, 0.8, 2.0, 4.0];
+        assert_eq!(symmetrised(graded.clone(), &free), graded);
+        let point = PointLoad { s: 2.05, force: Vector3::x(), moment: Vector3::zeros() };
+        assert_eq!(symmetrised(nodes.clone(), &with(vec![point])), nodes);
+    }
+}

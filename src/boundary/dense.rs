@@ -4,7 +4,7 @@ use pulp::{Arch, NullaryFnOnce};
 
 /// Numbers that are worked on at once: rows are as long as a multiple of it.
 const WIDE: usize = 4;
-/// The longest row.
+/// The longest row: the strains of an element of the highest degree, and its inputs.
 const LONGEST: usize = 44;
 
 /// Does work by the widest instructions of this processor. They give the same bits: nothing is fused or summed in another order.
@@ -31,7 +31,8 @@ pub fn eliminate(block: &mut [f64], stride: usize, pivots: usize, swaps: &mut [u
         ($($width:literal)*) => {
             match stride {
                 $($width => wide(Elimination::<$width> { rows: block.as_chunks_mut().0, pivots, swaps }),)*
-                _ => panic!("rows of {stride} numbers"),
+                // Rows are made by this crate alone, for degrees up to the highest.
+                _ => unreachable!("rows of {stride} numbers"),
             }
         };
     }

@@ -180,7 +180,7 @@ impl Held {
 
 impl Plane for Held {
     fn hold(&mut self, other: f64, exchanged: bool) {
-        (self.other, self.exchanged, self.at) = (other, exchanged, None);
+        (self.other, self.exchanged, self.at, self.linearised) = (other, exchanged, None, None);
     }
 }
 
@@ -234,6 +234,8 @@ impl Equations for Held {
         t: f64,
         across: Option<&Direction<Correction>>,
     ) -> Result<(), Failed> {
+        // Until it is done there are no factors.
+        self.linearised = None;
         let problem = self.problem(t)?;
         let mut settled = x.x.clone();
         let system = self.system(x, t)?;

@@ -107,7 +107,7 @@ def symmetric_strip(tol):
 
 @pytest.mark.parametrize("tol", [1e-4, 1e-6, 1e-7, 3e-8, 1e-9])
 def test_no_tolerance_leads_back_to_the_symmetric_branch(tol):
-    # The error of the mesh, which is not symmetric, turns the tangent at the branch point by its third root.
+    # On a mesh that is not symmetric its error turns the tangent at the branch point by its third root.
     fine, other = symmetric_strip(1e-10), symmetric_strip(tol)
     np.testing.assert_allclose(places(other, "branch_point"), places(fine, "branch_point"), rtol=tol)
     np.testing.assert_allclose(places(other, "fold"), places(fine, "fold"), rtol=tol)

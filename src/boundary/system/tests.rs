@@ -167,3 +167,28 @@ fn the_jacobian_is_exact() {
         }
     }
 }
+
+#[test]
+fn ends_that_move_change_their_conditions_alone() {
+    let mut numbers = Numbers(5);
+    for holds in [[Hold::Clamped, Hold::Pinned], [Hold::Free, Hold::Clamped]] {
+        let problem = Arc::new(problem(holds, true, &mut numbers));
+        let nodes = vec![0.0, 2.0, 3.5, 5.0, 7.0];
+        let mut system = System::new(Mesh::new(&problem, nodes, 3).unwrap()).unwrap();
+        let x = iterate(&system.mesh, &mut numbers);
+        let mut targets = Targets { ends: problem.ends, load: 1.0, offset: Vec::new(), drag: 0.0 };
+        system.evaluate(&x, &targets).unwrap();
+        let (before, from) = (system.residual.clone(), targets.ends);
+        for end in &mut targets.ends {
+            end.position += numbers.vector(0.1);
+            end.rotation = numbers.rotation();
+            (end.force, end.moment) = (numbers.vector(1e-4), numbers.vector(1e-4));
+        }
+        system.evaluate(&x, &targets).unwrap();
+        let found = system.by_ends(&x, [&from, &targets.ends], 0.5);
+        system.residual.subtract(&before, 0.5);
+        assert_eq!((&found.start, &found.end), (&system.residual.start, &system.residual.end));
+        assert_eq!((&found.strains, &found.gaps), (&system.residual.strains, &system.residual.gaps));
+        assert!(found.start.iter().chain(&found.end).any(|x| x.abs() > 1e-3));
+    }
+}

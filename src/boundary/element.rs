@@ -36,6 +36,7 @@ use pulp::NullaryFnOnce;
 use super::dense::wide;
 use super::eliminated::Eliminated;
 use super::gauss::{Gauss, MAX_DEGREE};
+use super::lanes::{Lane, Quaternions, add, all, at, lanes, set, times, times_unit};
 use super::law::Response;
 use crate::section::Strain;
 
@@ -91,11 +92,6 @@ pub struct Exit {
     /// Moment of the distributed force about the start.
     pub lever: Vector,
 }
-
-/// A number for every stage, and zeros; two at a time are worked on.
-type Lane<const L: usize> = [f64; L];
-/// The same of the components of a quaternion `w, i, j, k`.
-type Quaternions<const L: usize> = [Lane<L>; 4];
 
 /// The stages of an element at given strains.
 #[derive(Clone, Debug)]
@@ -186,69 +182,6 @@ impl<const S: usize, const L: usize> NullaryFnOnce for Linearisation<'_, S, L> {
 /// The vector part of a curvature as a quaternion.
 fn pure(strain: &Strain) -> Quaternion<f64> {
     Quaternion::new(0.0, strain[1], strain[2], strain[3])
-}
-
-/// Quaternions, one a stage.
-#[inline(always)]
-fn lanes<const L: usize>(q: &[Quaternion<f64>; MAX_DEGREE]) -> Quaternions<L> {
-    [from_fn(|l| q[l].w), from_fn(|l| q[l].i), from_fn(|l| q[l].j), from_fn(|l| q[l].k)]
-}
-
-/// The quaternion of a stage.
-#[inline(always)]
-fn at<const L: usize>(q: &Quaternions<L>, stage: usize) -> Quaternion<f64> {
-    Quaternion::new(q[0][stage], q[1][stage], q[2][stage], q[3][stage])
-}
-
-/// Sets the quaternion of a stage.
-#[inline(always)]
-fn set<const L: usize>(q: &mut Quaternions<L>, stage: usize, value: &Quaternion<f64>) {
-    (q[0][stage], q[1][stage], q[2][stage], q[3][stage]) = (value.w, value.i, value.j, value.k);
-}
-
-/// The same quaternion for every stage.
-#[inline(always)]
-fn all<const L: usize>(q: &Quaternion<f64>) -> Quaternions<L> {
-    [[q.w; L], [q.i; L], [q.j; L], [q.k; L]]
-}
-
-/// `x += factor y`.
-#[inline(always)]
-fn add<const L: usize>(x: &mut Lane<L>, factor: f64, y: &Lane<L>) {
-    for l in 0..L {
-        x[l] += factor * y[l];
-    }
-}
-
-/// `p q` for every stage.
-#[inline(always)]
-fn times<const L: usize>(p: &Quaternions<L>, q: &Quaternions<L>) -> Quaternions<L> {
-    let mut product = [[0.0; L]; 4];
-    for l in 0..L {
-        product[0][l] = p[0][l] * q[0][l] - p[1][l] * q[1][l] - p[2][l] * q[2][l] - p[3][l] * q[3][l];
-    }
-    for l in 0..L {
-        product[1][l] = p[0][l] * q[1][l] + p[1][l] * q[0][l] + p[2][l] * q[3][l] - p[3][l] * q[2][l];
-    }
-    for l in 0..L {
-        product[2][l] = p[0][l] * q[2][l] - p[1][l] * q[3][l] + p[2][l] * q[0][l] + p[3][l] * q[1][l];
-    }
-    for l in 0..L {
-        product[3][l] = p[0][l] * q[3][l] + p[1][l] * q[2][l] - p[2][l] * q[1][l] + p[3][l] * q[0][l];
-    }
-    product
-}
-
-/// `q (0, e_c)`: a permutation.
-#[inline(always)]
-fn times_unit<const L: usize>(q: &Quaternions<L>, c: usize) -> Quaternions<L> {
-    let [w, i, j, k] = q;
-    let minus = |x: &Lane<L>| x.map(|x| -x);
-    match c {
-        0 => [minus(i), *w, *k, minus(j)],
-        1 => [minus(j), minus(k), *w, *i],
-        _ => [minus(k), *j, minus(i), *w],
-    }
 }
 
 /// Columns `d1`, `d2`, `d3` times the square of the norm: quadratic in the quaternion.

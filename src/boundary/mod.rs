@@ -10,7 +10,7 @@
 //! | file | role |
 //! |---|---|
 //! | `problem`, `ends`, `law`, `family` | what is given, and how it depends on parameters |
-//! | `gauss`, `element`, `eliminated` | one element: stages, linearisation, elimination of its strains |
+//! | `gauss`, `element`, `lanes`, `eliminated` | one element: stages, linearisation, elimination of its strains |
 //! | `transfer`, `chain`, `dense`, `symmetric` | elimination of the nodes |
 //! | `sparse` | the same without elimination, by faer |
 //! | `mesh`, `iterate`, `system` | all elements: unknowns, residual, Jacobian |
@@ -41,6 +41,7 @@ mod gauss;
 mod iterate;
 mod kinks;
 mod known;
+mod lanes;
 mod law;
 mod mesh;
 mod newton;

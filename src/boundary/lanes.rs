@@ -1,7 +1,5 @@
 //! Numbers and quaternions of all stages of an element at once.
 
-#![expect(clippy::needless_range_loop, reason = "indices of stages, as in the equations")]
-
 use std::array::from_fn;
 
 use nalgebra::Quaternion;

@@ -1,8 +1,8 @@
 //! A step along a branch: the next point, predicted by the last ones and corrected.
 
 use super::branch::Limits;
-use super::correct::{Corrected, Guess, PointOf, ROUGHLY, arclength, corrected, difference};
-use super::equations::{Equations, Failed, dot};
+use super::correct::{Corrected, EXACTLY, Guess, PointOf, ROUGHLY, arclength, corrected, difference};
+use super::equations::{Direction, Equations, Failed, dot};
 use super::predict::weights;
 
 /// The error of a prediction that steps are made for.
@@ -10,8 +10,11 @@ const PREDICTION: f64 = 5e-3;
 /// An error of a prediction, and a cosine of the angle between tangents, that no step may have; how far ahead along the last tangent it must
 /// lead, of its length: where a branch turns as fast as steps change a prediction may be behind.
 const FAR: f64 = 8.0 * PREDICTION;
-const TURN: f64 = 0.7;
+pub const TURN: f64 = 0.7;
 const AHEAD: f64 = 0.5;
+/// How far from a point its tangent may be taken, of the step; its change of the parameter below which it may have the wrong sign.
+const ASIDE: f64 = 1e-3;
+const SHALLOW: f64 = 1e-2;
 
 /// A point that a step led to.
 pub struct Advanced<E: Equations> {
@@ -70,14 +73,12 @@ pub fn advanced<E: Equations>(
             length = (length + (end - guess.1) / slope).clamp(0.0, step);
             guess = predicted(equations, length);
         }
-        let guess = Guess { x: guess.0, t: end, across: None, sense: Some(&last.along) };
-        let Corrected { mut point, first } = corrected(equations, guess, limits.tolerance, ROUGHLY)?;
+        let (mut point, first) = reached(equations, last, (guess.0, end), None, length, limits)?;
         point.t = end;
         point.s = last.s + near(equations, last, &point, first, length)?;
         return Ok(Advanced { point, order: memory.len(), error: first, at_end: true });
     }
-    let guess = Guess { x, t, across: Some(&last.along), sense: Some(&last.along) };
-    let Corrected { mut point, first } = corrected(equations, guess, limits.tolerance, ROUGHLY)?;
+    let (mut point, first) = reached(equations, last, (x, t), Some(&last.along), step, limits)?;
     let length = near(equations, last, &point, first, step)?;
     if outside(point.t) {
         // A shorter step meets the end.
@@ -85,6 +86,27 @@ pub fn advanced<E: Equations>(
     }
     point.s = last.s + length;
     Ok(Advanced { point, order: memory.len(), error: first, at_end: false })
+}
+
+/// The point that a step leads to, and the error of its prediction. Where the branch lies across the parameter the tangent is exact: by its
+/// sign folds are told.
+fn reached<E: Equations>(
+    equations: &mut E,
+    last: &PointOf<E>,
+    (x, t): (E::State, f64),
+    across: Option<&Direction<E::Change>>,
+    step: f64,
+    limits: &Limits,
+) -> Result<(PointOf<E>, f64), Failed> {
+    let sense = Some(&last.along);
+    let aside = ROUGHLY.min(ASIDE * step);
+    let Corrected { point, first } =
+        corrected(equations, Guess { x, t, across, sense }, limits.tolerance, aside)?;
+    if point.along.t.abs() > SHALLOW {
+        return Ok((point, first));
+    }
+    let again = Guess { x: point.x, t: point.t, across, sense };
+    Ok((corrected(equations, again, limits.tolerance, EXACTLY)?.point, first))
 }
 
 /// The arclength from a point to the next, a step away.

@@ -1,10 +1,12 @@
 //! Special points between two points of a branch.
 
+use super::advance::TURN;
 use super::branch::{Limits, SpecialKind};
 use super::correct::{
     Corrected, DirectionOf, EXACTLY, Guess, Point, PointOf, arclength, corrected, difference,
 };
 use super::equations::{Direction, Equations, Failed, Stability, dot, plus, scaled, unit};
+use super::walk::MOST_DISTINCT;
 
 /// A special point that was found.
 pub struct Found<E: Equations> {
@@ -79,7 +81,7 @@ fn between<E: Equations>(
         between(equations, a, &middle, limits, depth + 1, found)?;
         return between(equations, &middle, b, limits, depth + 1, found);
     }
-    let point = located(equations, a, b, kind, turns, limits).ok_or(Failed::Jumped)?;
+    let point = located(equations, [a, b], (kind, multiplicity), turns, limits).ok_or(Failed::Jumped)?;
     let changed = |from: &Stability, to: &Stability| match kind {
         SpecialKind::SectionInstability => from.section_index.abs_diff(to.section_index),
         _ => from.index.unwrap_or(0).abs_diff(to.index.unwrap_or(0)),
@@ -110,14 +112,22 @@ fn change<S, C>(a: &Point<S, C>, b: &Point<S, C>) -> Option<(SpecialKind, usize)
         return Some((SpecialKind::SectionInstability, unstable[0].abs_diff(unstable[1])));
     }
     let turns = a.along.t * b.along.t < 0.0;
+    let sign = signs(a, b);
     let index = a.stability.index.zip(b.stability.index);
-    match (turns, index.map(|(a, b)| b.abs_diff(a))) {
-        (true, None | Some(1)) => Some((SpecialKind::Fold, 1)),
-        (true, Some(0)) => Some((SpecialKind::BranchPoint, 1)),
+    // The determinant tells whether the index changes by an odd number: next to a fold, and to a branch point from the side, it is that of
+    // rounding.
+    let change = index.map(|(a, b)| match b.abs_diff(a) {
+        change if sign != 0.0 && turns == (sign < 0.0) && change % 2 == 1 => change - 1,
+        change if sign != 0.0 && turns != (sign < 0.0) && change % 2 == 0 => change + 1,
+        change => change,
+    });
+    match (turns, change) {
         // Without a potential the sign of the determinant tells of an odd number; beyond a section instability it changes with
         // every section.
-        (false, None) => (unstable == [0, 0] && sign_changes(a, b)).then_some((SpecialKind::BranchPoint, 1)),
-        (false, Some(0)) => None,
+        (_, None) if unstable == [0, 0] && sign < 0.0 => Some((SpecialKind::BranchPoint, 1)),
+        (true, None | Some(1)) => Some((SpecialKind::Fold, 1)),
+        (true, Some(0)) => Some((SpecialKind::BranchPoint, 1)),
+        (false, None | Some(0)) => None,
         (_, Some(change)) => Some((SpecialKind::BranchPoint, change)),
     }
 }
@@ -127,10 +137,9 @@ pub fn unlike<S, C>(a: &Point<S, C>, b: &Point<S, C>) -> bool {
     change(a, b).is_some()
 }
 
-/// Whether the determinant has another sign, where it is known.
-fn sign_changes<S, C>(a: &Point<S, C>, b: &Point<S, C>) -> bool {
-    let signs = a.stability.determinant.zip(b.stability.determinant);
-    signs.is_some_and(|(a, b)| a.sign * b.sign < 0.0)
+/// The product of the signs of the determinants; 0 if one is not known.
+fn signs<S, C>(a: &Point<S, C>, b: &Point<S, C>) -> f64 {
+    a.stability.determinant.zip(b.stability.determinant).map_or(0.0, |(a, b)| a.sign * b.sign)
 }
 
 /// How far beside a special point, of the interval it was found in, others are not told from it.
@@ -250,18 +259,22 @@ pub fn at_value<E: Equations>(
 /// not corrected.
 fn located<E: Equations>(
     equations: &mut E,
-    a: &PointOf<E>,
-    b: &PointOf<E>,
-    kind: SpecialKind,
+    [a, b]: [&PointOf<E>; 2],
+    (kind, multiplicity): (SpecialKind, usize),
     turns: bool,
     limits: &Limits,
 ) -> Option<PointOf<E>> {
     let start = a.stability.clone();
+    let simple = kind == SpecialKind::BranchPoint && multiplicity == 1;
+    let from_the_side = simple && turns;
+    // Where two branches cross the determinant changes its sign. From the side where the parameter turns tells less: what keeps them apart moves
+    // that by its third root.
+    let crosses = simple && signs(a, b) < 0.0;
+    let turns = turns && !crosses;
     let before = |point: &PointOf<E>| match kind {
         SpecialKind::SectionInstability => point.stability.section_index == start.section_index,
         _ if turns => point.along.t * a.along.t > 0.0,
-        // Without a potential the determinant decides alone.
-        _ if start.index.is_none() => !sign_changes(a, point),
+        _ if crosses => signs(a, point) >= 0.0,
         _ => point.stability.index == start.index,
     };
     let function = |point: &PointOf<E>, multiplicity: usize| match kind {
@@ -278,12 +291,16 @@ fn located<E: Equations>(
         }
     };
     let index = |point: &PointOf<E>| point.stability.index.unwrap_or(0);
+    let multiplicity = |low: &PointOf<E>, high: &PointOf<E>| match crosses {
+        true => 1,
+        false => index(low).abs_diff(index(high)).max(1),
+    };
     let (mut low, mut high) = (a.clone(), b.clone());
     // To where rotations add as vectors do: a little beyond where the change is expected, or by halves.
     let (mut seen, mut lengths) = (vec![low.clone(), high.clone()], [f64::INFINITY; 2]);
     while high.s - low.s > SHORT {
         let length = high.s - low.s;
-        let multiplicity = index(&low).abs_diff(index(&high)).max(1);
+        let multiplicity = multiplicity(&low, &high);
         let known: Vec<_> =
             seen.iter().rev().take(MEMORY).map(|point| (point.s, function(point, multiplicity))).collect();
         let place = root(&known).0;
@@ -299,15 +316,27 @@ fn located<E: Equations>(
         }
         seen.push(middle);
     }
-    // Else what changes, changes from one branch to another: also beyond a fold, where the index is another one.
-    let from_the_side = turns && start.index == b.stability.index;
-    if from_the_side && start.index != high.stability.index
-        || gap(equations, &low, &high) > GAP * (high.s - low.s)
+    // Else what changes, changes from one branch to another, or on another.
+    if simple && (unlike(a, &low) || unlike(&high, b)) || gap(equations, &low, &high) > GAP * (high.s - low.s)
     {
         return None;
     }
     let (a, b) = (low.clone(), high.clone());
     // Places are measured along the tangent at a, at right angles to which all points are corrected: b's may be a little less.
+    let beside = |equations: &mut E, tried: &[PointOf<E>], s: f64, spread: f64| {
+        // All by steps from a, on which their places depend a little, toward the end that is not as near.
+        [s, s - 0.3 * spread, s + 0.3 * spread].into_iter().find_map(|s| {
+            let apart = |point: &&PointOf<E>| (point.s - s).abs();
+            let from = tried.iter().chain([&a]).min_by(|p, q| apart(p).total_cmp(&apart(q)))?;
+            let to = if from.s - a.s < b.s - from.s { &b } else { &a };
+            in_plane(equations, (from, to), s, &a.along, &a)
+        })
+    };
+    let narrow = |[low, high]: [&mut PointOf<E>; 2], point: &PointOf<E>| {
+        if low.s < point.s && point.s < high.s {
+            *(if before(point) { low } else { high }) = point.clone();
+        }
+    };
     let mut tried: Vec<PointOf<E>> = Vec::new();
     let mut lengths = [f64::INFINITY; 2];
     let mut previous = f64::INFINITY;
@@ -315,9 +344,11 @@ fn located<E: Equations>(
     // The least error so far, its place, and how many values it is of; the least with values taken as near as now, and the two times before, and whether that helped.
     let mut best = (f64::INFINITY, 0.0, 0);
     let (mut least, mut rounding) = ([f64::INFINITY; 3], false);
+    // Whether two branches meet there, as far as can be told.
+    let mut meet = kind != SpecialKind::BranchPoint;
     for _ in 0..MOST {
         let length = high.s - low.s;
-        let multiplicity = index(&low).abs_diff(index(&high)).max(1);
+        let multiplicity = multiplicity(&low, &high);
         let value = |point: &PointOf<E>| (point.s, function(point, multiplicity));
         // By the last values near the root; the first time by those at the ends.
         let mut known: Vec<(f64, f64)> = tried.iter().rev().take(MEMORY).map(&value).collect();
@@ -334,6 +365,26 @@ fn located<E: Equations>(
                 best = (error, place, tried.len());
             }
         }
+        if !meet && (error < KNOWN * spread || length < KNOWN * spread) {
+            let apart = spread.max(CORNERS * unresolved(limits).sqrt());
+            let mut around = Vec::with_capacity(AROUND.len());
+            for part in AROUND {
+                around.push(beside(equations, &tried, place + part * apart, apart)?);
+            }
+            if around.iter().any(|point| dot(equations, &a.along, &point.along) < TURN)
+                || from_the_side && !is_singular(&around)
+                || miss(equations, &around, place) > unresolved(limits)
+            {
+                return None;
+            }
+            meet = true;
+            let (place, error) = root(&around.iter().map(value).collect::<Vec<_>>());
+            around.iter().for_each(|point| narrow([&mut low, &mut high], point));
+            tried.extend(around);
+            if low.s < place && place < high.s && error < best.0 {
+                best = (error, place, tried.len());
+            }
+        }
         // Around the root, not at it: there the equations are singular, and another branch is as near.
         let near = tried.iter().filter(|point| (point.s - place).abs() < 2.0 * spread).count();
         if near >= MEMORY {
@@ -343,17 +394,14 @@ fn located<E: Equations>(
                 && best.0 * a.along.t.abs().max(b.along.t.abs()) < ROUNDING;
             least = [least[0].min(least[1]), least[2], f64::INFINITY];
         }
-        if best.0 < EXACT.max(LOCATED * limits.tolerance) || rounding {
-            if gap(equations, &low, &high) > GAP * length.abs().max(NEAREST) {
+        if meet && (best.0 < EXACT.max(LOCATED * limits.tolerance) || rounding) {
+            if gap(equations, &low, &high) > GAP * (high.s - low.s).max(NEAREST) {
                 return None;
             }
             // Nearer ones did not help.
             tried.truncate(best.2);
             let apart = |point: &PointOf<E>| (point.s - best.1).abs();
             tried.sort_by(|p, q| apart(p).total_cmp(&apart(q)));
-            if from_the_side && passes_by::<E>(&tried[..tried.len().min(MEMORY)], best.1, limits) {
-                return None;
-            }
             // Of two that are too near to each other rounding is what they tell.
             let near = &tried[0];
             let other = tried.iter().find(|other| (other.s - near.s).abs() > 0.5 * apart(near));
@@ -365,9 +413,7 @@ fn located<E: Equations>(
             return Some(point);
         }
         if length < NEAREST {
-            let last = &tried[tried.len().saturating_sub(MEMORY)..];
-            let one = gap(equations, &low, &high) < GAP * NEAREST
-                && !(from_the_side && passes_by::<E>(last, low.s, limits));
+            let one = meet && gap(equations, &low, &high) < GAP * NEAREST;
             return if one { tried.pop() } else { None };
         }
         let mut next = place + [0.5, -0.5, 1.0, -1.0, 1.5][near % MEMORY] * spread;
@@ -379,39 +425,37 @@ fn located<E: Equations>(
         }
         let next = next.clamp(low.s - spread, high.s + spread).clamp(a.s, b.s);
         lengths = [lengths[1], length];
-        let aside = [next, next - 0.3 * spread, next + 0.3 * spread];
-        // All by steps from a, on which their places depend a little.
-        let point = aside.into_iter().find_map(|s| {
-            let apart = |point: &&PointOf<E>| (point.s - s).abs();
-            let from = tried.iter().chain([&a]).min_by(|p, q| apart(p).total_cmp(&apart(q)))?;
-            in_plane(equations, (from, if from.s < s { &b } else { &a }), s, &a.along, &a)
-        })?;
-        if before(&point) {
-            if point.s > low.s {
-                low = point.clone()
-            }
-        } else if point.s < high.s {
-            high = point.clone();
-        }
+        let point = beside(equations, &tried, next, spread)?;
+        narrow([&mut low, &mut high], &point);
         tried.push(point);
     }
     None
 }
 
-/// Whether a branch that turns at a place passes by another and does not meet it there: the equations are not singular where it turns,
-/// but beside. An imperfection of f, and a mesh that is not symmetric is one of its error, moves that by about the third root of f.
-fn passes_by<E: Equations>(points: &[PointOf<E>], place: f64, limits: &Limits) -> bool {
-    let first = points.first().and_then(|point| point.stability.determinant);
-    let value = |point: &PointOf<E>| {
-        let (here, first) = point.stability.determinant.zip(first)?;
-        Some((point.s, here.sign * (here.log - first.log).exp()))
-    };
-    let values: Option<Vec<_>> = points.iter().map(value).collect();
-    // Two at least make a root.
-    values.filter(|values| values.len() > 1).is_some_and(|values| {
-        let beside = (root(&values).0 - place).abs();
-        beside.is_nan() || beside > 2.0 * limits.tolerance.cbrt()
-    })
+/// What keeps two branches apart that pass by each other at a place, as the half axis of a hyperbola squared: what is not smooth in points
+/// around it, `x(s) = p(s) + miss/(s - place)`, by their last divided difference.
+fn miss<E: Equations>(equations: &mut E, points: &[PointOf<E>], place: f64) -> f64 {
+    let first = &points[0];
+    let whole: f64 = points.iter().map(|point| place - point.s).product();
+    let others = |i: usize| (0..points.len()).filter(move |k| *k != i);
+    let weight = |i: usize| whole / others(i).map(|k| points[i].s - points[k].s).product::<f64>();
+    let changes: Vec<DirectionOf<E>> =
+        points.iter().map(|point| difference(equations, first, point)).collect();
+    let parts: Vec<_> = changes.iter().enumerate().map(|(i, change)| (weight(i), &change.x)).collect();
+    let t = changes.iter().enumerate().map(|(i, change)| weight(i) * change.t).sum();
+    let miss = Direction { x: equations.sum(&parts), t };
+    dot(equations, &miss, &miss).sqrt()
+}
+
+/// What keeps branches apart, the same, that is not told from the error of points and of their mesh.
+fn unresolved(limits: &Limits) -> f64 {
+    limits.tolerance.min(2.0 * MOST_DISTINCT)
+}
+
+/// Whether the equations become singular between points around a place, where they are known to: they do not at a fold.
+fn is_singular<S, C>(around: &[Point<S, C>]) -> bool {
+    let sizes = around[0].stability.determinant.zip(around[around.len() / 2].stability.determinant);
+    sizes.is_none_or(|(outer, inner)| outer.log - inner.log > SINGULAR)
 }
 
 /// How far apart two points are in space.
@@ -428,6 +472,13 @@ const BEYOND: f64 = 0.4 * SHORT;
 /// Values by which a root is interpolated, and how far around it they are taken.
 const MEMORY: usize = 5;
 const SPREAD: f64 = 1e-3;
+/// Where values are taken that tell whether two branches meet, of how far, once the place is known to so much of that.
+const AROUND: [f64; 6] = [-1.5, -1.0, -0.5, 0.5, 1.0, 1.5];
+const KNOWN: f64 = 0.1;
+/// How far that is at least, of the size of the corners that keep branches apart which are not told from none.
+const CORNERS: f64 = 10.0;
+/// By how much the logarithm of the determinant at least grows from the inner of them to the outer where it vanishes between, a third as near.
+const SINGULAR: f64 = 0.5;
 
 /// The root of a function by inverse interpolation of its values, and an estimate of its error: by how much the last value counts.
 fn root(values: &[(f64, f64)]) -> (f64, f64) {

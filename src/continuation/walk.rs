@@ -22,7 +22,7 @@ const MOST_POSTPONED: usize = 3;
 const MOST_MESHES: usize = 20;
 /// Errors on which special points are not found, of the tolerance of points, and at most.
 const DISTINCT: f64 = 0.5;
-const MOST_DISTINCT: f64 = 1e-8;
+pub const MOST_DISTINCT: f64 = 1e-8;
 /// Distance of two special points, in the span, that may be one.
 const APART: f64 = 1e-6;
 /// Finer meshes in a row that do not come to that: rounding keeps them.

@@ -239,3 +239,21 @@ def test_ring_that_is_twisted(GJ):
     # twist is no linear parameter: it is differentiated by differences of 1e-7
     assert point.parameter == pytest.approx(math.sqrt(3.0) / GJ, rel=1e-9)
     assert along(diagram) == [0.0, 2.0]
+
+
+# --- imperfect columns
+
+
+@pytest.mark.parametrize("sideways", [1e-9, 1e-7, 1e-5, 1e-3])
+def test_an_arch_against_a_small_load_across_folds(sideways):
+    # theta = A sin(pi S/2) has energy (pi^2/4 - P) A^2/4 + pi^2 A^4/256 + 2 f A/pi:
+    # a fold at P - pi^2/4 = 3/2 f^(2/3), and terms of its square
+    span = (-20.0, 0.0)
+    end = rb.Free((-sideways, 0.0, span[0]))
+    diagram = traced("end.force[2]", span, EI1=math.inf, end=end, guess=(0.0, 0.0, 2.0, 0.0))
+    (branch,) = diagram.branches
+    assert (kinds(diagram), branch.ended) == ({"fold"}, ("start", "span"))
+    assert branch.parameter[[0, -1]].tolist() == [span[0]] * 2
+    assert (branch.strains[:, 2] > 0.0).all()
+    square = sideways ** (2.0 / 3.0)
+    close(places(diagram, "fold"), -PI2 / 4.0 - 1.5 * square, span, CLOSE + 0.3 * square**2 / 20.0)

@@ -134,5 +134,12 @@ def test_a_column_with_a_force_across_has_one_branch():
     assert branches.stays(0.01) is not None
 
 
-def test_a_trace_of_chirality_keeps_the_branches_apart():
-    assert branches.right_chirality(1e-4)
+# at 1.6e-11 what keeps them apart is the error of points, 1e-11
+@pytest.mark.parametrize("omega", [1e-2, -1e-4, 3.9810717055349695e-8, 1.6244e-8, 1e-9, -1e-10, 1.601e-11])
+def test_a_trace_of_chirality_keeps_the_branches_apart(omega):
+    assert branches.right_chirality(omega)
+
+
+@pytest.mark.parametrize("omega", [1.599e-11, -1e-11, 1e-14])
+def test_less_chirality_than_the_error_of_points_leaves_a_pitchfork(omega):
+    assert branches.right_pitchfork(omega)

@@ -6,7 +6,7 @@ use std::hint::black_box;
 use std::sync::Arc;
 
 use nalgebra::Vector3;
-use ribbonrs::boundary::{End, Hold, Known, Law, Layout, LineLoad, Mesh, Path, Problem, System};
+use ribbonrs::boundary::{End, Hold, Known, Law, Layout, LineLoad, Mesh, Path, Problem, System, Targets};
 use ribbonrs::frame::{Pose, integrate_gauss, integrate_nodal, integrate_segments};
 use ribbonrs::growth::Growth;
 use ribbonrs::material::PlaneStress;
@@ -17,7 +17,7 @@ const SEGMENTS: u32 = 100;
 const ELEMENTS: usize = 100;
 
 /// A unit is named by what it does and its size; a repetition does it `1`, `SEGMENTS` or `ELEMENTS` times.
-const UNITS: [(&str, usize); 17] = [
+const UNITS: [(&str, usize); 18] = [
     ("section closed 2.4", 1),
     ("section closed 40", 1),
     ("section general 2.4", 1),
@@ -35,6 +35,7 @@ const UNITS: [(&str, usize); 17] = [
     ("iteration 7 7", ELEMENTS),
     ("iteration 8 7", ELEMENTS),
     ("iteration 5 13", ELEMENTS),
+    ("index", ELEMENTS),
 ];
 
 /// Energy, gradient and Hessian at `|K2| = k2 eta`; 8, 16 or 32 modes of an even profile of degree 6.
@@ -68,8 +69,8 @@ fn frame(method: &str, repetitions: usize) {
     }
 }
 
-/// Linearisation, factorisation and correction: grown edges between clamps half a turn apart, shortened.
-fn iteration(degree: usize, states: usize, repetitions: usize) {
+/// Grown edges between clamps half a turn apart, shortened, and a state near it.
+fn clamped(degree: usize, layout: Layout) -> (System, Path, Targets) {
     let law = RibbonLaw::new(RibbonSpec::uniform(ETA, Growth::edge(0.02))).expect("a law for this growth");
     let far = End { position: Vector3::new(0.0, 0.0, 9.0), turns: 0.5, ..End::new(Hold::Clamped) };
     let (ends, line) = ([End::new(Hold::Clamped), far], LineLoad::uniform([0.0; 3]));
@@ -78,11 +79,25 @@ fn iteration(degree: usize, states: usize, repetitions: usize) {
     let mesh = Mesh::new(&problem, nodes, degree).expect("a mesh");
     let path = Path::new(&mesh, &Known::Straight(1.0)).expect("a shape");
     let targets = path.targets(&problem, 0.5);
-    let layout = if states == 7 { Layout::Constant } else { Layout::Full };
-    let mut system = System::with_layout(mesh, layout).expect("a system");
+    (System::with_layout(mesh, layout).expect("a system"), path, targets)
+}
+
+/// Linearisation, factorisation and correction.
+fn iteration(degree: usize, states: usize, repetitions: usize) {
+    let (mut system, path, targets) =
+        clamped(degree, if states == 7 { Layout::Constant } else { Layout::Full });
     for _ in 0..repetitions {
         system.linearise(&path.x, &targets).expect("a regular matrix");
         black_box(system.correction());
+    }
+}
+
+/// The stability index of what is linearised.
+fn index(repetitions: usize) {
+    let (mut system, path, targets) = clamped(5, Layout::Constant);
+    system.linearise(&path.x, &targets).expect("a regular matrix");
+    for _ in 0..repetitions {
+        black_box(system.index_here(&path.x, targets.load, &[]).expect("a potential"));
     }
 }
 
@@ -100,6 +115,7 @@ fn main() {
         ["section", form, k2] => section(form, k2.parse().expect("a number"), repetitions),
         ["frame", method] => frame(method, repetitions),
         ["iteration", degree, states] => iteration(number(degree), number(states), repetitions),
+        ["index"] => index(repetitions),
         _ => panic!("{unit} is not one of the units"),
     }
 }

@@ -27,6 +27,10 @@
 //!                                   [ Z^T    0 ]  with what the end leaves free.
 //! ```
 //!
+//! With `F = G S G^T`, `S` of signs, and `K = D^-1 C` such a pivot has as many as `T = S + G^T K G` more than `S`, beside
+//! six: if `F` is regular, since `K + F^-1 = G^-T T G^-1`, else by continuity. `F` may be singular, and is where a ribbon is
+//! rigid. The next one is `B D^-1 + X^T T^-1 X` with `X = G^T D^-1`.
+//!
 //! What the start leaves free is held by very soft springs.
 
 use nalgebra::{DMatrix, Matrix6, SMatrix, Vector3};
@@ -90,11 +94,14 @@ pub struct Place {
     pub moment: Vector,
 }
 
-/// The second derivatives of an element.
+/// An element, by the second derivatives above.
 struct Blocks {
-    dd: Matrix6<f64>,
-    dp: Matrix6<f64>,
-    pp: Matrix6<f64>,
+    /// `D^-1 C`, to the wrench at its start from the pose there.
+    stiffness: Matrix6<f64>,
+    /// `B D^-1`, of the end while the start is held.
+    flexibility: Matrix6<f64>,
+    /// `D^-1`.
+    carried: Matrix6<f64>,
 }
 
 impl Blocks {
@@ -135,7 +142,11 @@ impl Blocks {
         let d = d + end * b;
         let c = c + end * a - d * start;
         let inverse = d.try_inverse()?;
-        Some(Self { dd: symmetric(&(inverse * c)), dp: -inverse, pp: symmetric(&(-b * inverse)) })
+        Some(Self {
+            stiffness: symmetric(&(inverse * c)),
+            flexibility: symmetric(&(b * inverse)),
+            carried: inverse,
+        })
     }
 }
 
@@ -177,8 +188,9 @@ pub fn index(
 ) -> Option<usize> {
     let rigid = problem.law.at(0.0).ok()?.compliance.min() == 0.0;
     let free = freedom(problem.ends[0].hold);
-    let springs = &free * free.transpose() / -SPRING;
-    let mut behind: Matrix6<f64> = SMatrix::from_iterator(springs.iter().copied());
+    let springs = &free * free.transpose() / SPRING;
+    // F, of all that is behind.
+    let mut behind = Matrix6::from_iterator(springs.iter().copied());
     let mut index = 0_isize;
     let held = |node: usize| {
         let here = holding.iter().filter(|spring| spring.node == node);
@@ -187,27 +199,19 @@ pub fn index(
     for (i, (row, ends)) in rows.iter().zip(places.windows(2)).enumerate() {
         let element = Blocks::new(row, [&ends[0], &ends[1]], units)?;
         // An element so long that it buckles by itself, held at its start alone: its strains were eliminated at that.
-        let softness = -element.pp;
-        index += Symmetric::new(&softness)?.negative(BUCKLED * softness.amax()) as isize - 6;
-        let mut pivot = SMatrix::<f64, 12, 12>::zeros();
-        pivot.fixed_view_mut::<6, 6>(0, 0).copy_from(&behind);
-        pivot.fixed_view_mut::<6, 6>(0, 6).fill_with_identity();
-        pivot.fixed_view_mut::<6, 6>(6, 0).fill_with_identity();
-        pivot.fixed_view_mut::<6, 6>(6, 6).copy_from(&(element.dd + held(i)));
+        let own = Symmetric::new(&element.flexibility)?;
+        index += own.negative(BUCKLED * element.flexibility.amax()) as isize;
+        let (root, signs) = Symmetric::new(&behind)?.root();
+        let pivot = root.tr_mul(&((element.stiffness + held(i)) * root)) + Matrix6::from_diagonal(&signs);
         let pivot = Symmetric::new(&pivot)?;
-        index += pivot.negative(0.0) as isize;
-        let mut own = Matrix6::zeros();
-        for (column, dp) in element.dp.column_iter().enumerate() {
-            let mut rhs = [0.0; 12];
-            rhs[6..].copy_from_slice(dp.as_slice());
-            own.column_mut(column).copy_from_slice(&pivot.solve(&rhs)[6..]);
-        }
-        behind = symmetric(&(element.pp - element.dp.transpose() * own));
+        index += pivot.negative(0.0) as isize - signs.iter().filter(|sign| **sign < 0.0).count() as isize;
+        let across = root.tr_mul(&element.carried);
+        behind = symmetric(&(element.flexibility + across.tr_mul(&pivot.solve(&across))));
     }
     // What the end leaves free, padded by ones.
     let free = freedom(problem.ends[1].hold);
     let mut last = SMatrix::<f64, 12, 12>::identity();
-    last.fixed_view_mut::<6, 6>(0, 0).copy_from(&behind);
+    last.fixed_view_mut::<6, 6>(0, 0).copy_from(&-behind);
     last.view_mut((0, 6), (6, free.ncols())).copy_from(&free);
     last.view_mut((6, 0), (free.ncols(), 6)).copy_from(&free.transpose());
     let spring = free.transpose() * held(rows.len()) * &free;

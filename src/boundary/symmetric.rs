@@ -2,7 +2,7 @@
 
 #![expect(clippy::needless_range_loop, reason = "indices of rows and columns")]
 
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, SVector};
 
 /// The factors of a symmetric matrix.
 pub struct Symmetric<const N: usize> {
@@ -91,45 +91,102 @@ impl<const N: usize> Symmetric<N> {
         count
     }
 
-    /// Solves; not finite where the matrix is singular.
+    /// `G` and the diagonal of `S`, of 1 and -1, of `A = G S G^T`.
     #[must_use]
-    pub fn solve(&self, rhs: &[f64; N]) -> [f64; N] {
+    pub fn root(&self) -> (SMatrix<f64, N, N>, SVector<f64, N>) {
         let a = &self.factors;
-        let mut x: [f64; N] = self.order.map(|i| rhs[i]);
-        let width = |k: usize| if self.paired[k] { 2 } else { 1 };
+        let (mut root, mut signs) = (SMatrix::zeros(), SVector::repeat(1.0));
+        let mut put = |k: usize, value: f64, column: [f64; N]| {
+            signs[k] = 1.0_f64.copysign(value);
+            let scale = value.abs().sqrt();
+            for (&place, x) in self.order.iter().zip(column) {
+                root[(place, k)] = scale * x;
+            }
+        };
         let mut k = 0;
         while k < N {
-            for i in k + width(k)..N {
-                for column in k..k + width(k) {
-                    x[i] -= a[i][column] * x[column];
+            let width = self.width(k);
+            let column = |k: usize, first: [f64; 2]| -> [f64; N] {
+                std::array::from_fn(|i| match i {
+                    _ if i < k => 0.0,
+                    _ if i < k + width => first[i - k],
+                    _ => first[0] * a[i][k] + if width == 2 { first[1] * a[i][k + 1] } else { 0.0 },
+                })
+            };
+            if width == 2 {
+                let (values, vectors) = eigen(a[k][k], a[k + 1][k], a[k + 1][k + 1]);
+                put(k, values[0], column(k, vectors[0]));
+                put(k + 1, values[1], column(k, vectors[1]));
+            } else {
+                put(k, a[k][k], column(k, [1.0, 0.0]));
+            }
+            k += width;
+        }
+        (root, signs)
+    }
+
+    /// Solves for all columns; not finite where the matrix is singular.
+    #[must_use]
+    pub fn solve<const M: usize>(&self, rhs: &SMatrix<f64, N, M>) -> SMatrix<f64, N, M> {
+        let a = &self.factors;
+        let mut x: [[f64; M]; N] = self.order.map(|i| std::array::from_fn(|c| rhs[(i, c)]));
+        let subtract = |x: &mut [[f64; M]; N], i: usize, factor: f64, k: usize| {
+            let known = x[k];
+            x[i].iter_mut().zip(known).for_each(|(x, known)| *x -= factor * known);
+        };
+        let mut k = 0;
+        while k < N {
+            let width = self.width(k);
+            for i in k + width..N {
+                for column in k..k + width {
+                    subtract(&mut x, i, a[i][column], column);
                 }
             }
-            k += width(k);
+            k += width;
         }
         let mut k = 0;
         while k < N {
+            let d = a[k][k];
             if self.paired[k] {
-                let (d, b, e) = (a[k][k], a[k + 1][k], a[k + 1][k + 1]);
+                let (b, e) = (a[k + 1][k], a[k + 1][k + 1]);
                 let determinant = d * e - b * b;
-                (x[k], x[k + 1]) =
-                    ((e * x[k] - b * x[k + 1]) / determinant, (d * x[k + 1] - b * x[k]) / determinant);
+                for c in 0..M {
+                    let (y, z) = (x[k][c], x[k + 1][c]);
+                    (x[k][c], x[k + 1][c]) = ((e * y - b * z) / determinant, (d * z - b * y) / determinant);
+                }
             } else {
-                x[k] /= a[k][k];
+                x[k].iter_mut().for_each(|x| *x /= d);
             }
-            k += width(k);
+            k += self.width(k);
         }
         for column in (0..N).rev() {
-            let first = column + if self.paired[column] { 2 } else { 1 };
-            for i in first..N {
-                x[column] -= a[i][column] * x[i];
+            for i in column + self.width(column)..N {
+                subtract(&mut x, column, a[i][column], i);
             }
         }
-        let mut solution = [0.0; N];
-        for (value, &place) in x.iter().zip(&self.order) {
-            solution[place] = *value;
+        let mut solution = SMatrix::zeros();
+        for (row, &place) in x.iter().zip(&self.order) {
+            row.iter().enumerate().for_each(|(c, value)| solution[(place, c)] = *value);
         }
         solution
     }
+
+    /// Rows of the pivot that begins at a row.
+    fn width(&self, k: usize) -> usize {
+        if self.paired[k] { 2 } else { 1 }
+    }
+}
+
+/// Eigenvalues and orthonormal eigenvectors of `[[d, b], [b, e]]` (Jacobi's rotation).
+fn eigen(d: f64, b: f64, e: f64) -> ([f64; 2], [[f64; 2]; 2]) {
+    if b == 0.0 {
+        return ([d, e], [[1.0, 0.0], [0.0, 1.0]]);
+    }
+    let half = 0.5 * (e - d) / b;
+    let t = 1.0_f64.copysign(half) / (half.abs() + half.hypot(1.0));
+    let c = 1.0 / t.hypot(1.0);
+    let s = t * c;
+    ([d - t * b, e + t * b], [[c, -s], [s, c]])
 }
 
 fn exchange<const N: usize>(a: &mut [[f64; N]; N], order: &mut [usize; N], i: usize, k: usize) {
@@ -143,7 +200,6 @@ fn exchange<const N: usize>(a: &mut [[f64; N]; N], order: &mut [usize; N], i: us
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::SVector;
     use proptest::prelude::*;
 
     proptest! {
@@ -155,11 +211,13 @@ mod tests {
                 let factors = Symmetric::new(&matrix).unwrap();
                 let values = matrix.symmetric_eigenvalues();
                 prop_assert_eq!(factors.negative(0.0), values.iter().filter(|x| **x < 0.0).count());
-                let rhs: [f64; 6] = std::array::from_fn(|i| numbers[i]);
-                let x = SVector::<f64, 6>::from(factors.solve(&rhs));
-                let residual = (matrix * x - SVector::from(rhs)).amax();
+                let rhs = half.fixed_columns::<2>(0).into_owned();
+                let x = factors.solve(&rhs);
+                let residual = (matrix * x - rhs).amax();
                 // Backward stable.
                 prop_assert!(residual <= 1e-14 * (1.0 + x.amax()), "{residual} {}", x.amax());
+                let (root, signs) = factors.root();
+                prop_assert!((root * SMatrix::from_diagonal(&signs) * root.transpose() - matrix).amax() < 1e-14);
             }
         }
     }

@@ -1,9 +1,11 @@
 //! All branches that hang together with those that are known.
 
+use super::between::at as at_length;
 use super::branch::{BranchOf, Ended, Limits, Special, SpecialKind};
 use super::correct::{PointOf, reversed};
 use super::equations::Equations;
-use super::locate::{Found, at as at_length, at_value, special_points, values_between};
+use super::locate::{Found, special_points, values_between};
+use super::place::at_value;
 use super::switch::{FROM_THE_SIDE, Leaving, alike, leaving, leaving_with_section};
 use super::walk::follow;
 

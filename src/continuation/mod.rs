@@ -10,11 +10,12 @@
 //! | `predict`, `correct`, `advance` | a step along a branch |
 //! | `branch` | a branch, its beginning and its ends |
 //! | `walk` | along a branch, as far as it is asked for |
-//! | `locate` | special points between two points of a branch |
+//! | `locate`, `between`, `place`, `near_miss` | special points between two points of a branch, their places, and branches that nearly meet |
 //! | `locus` | a special point as a second parameter varies |
 //! | `switch`, `diagram` | what branches off, and all branches that hang together |
 
 mod advance;
+mod between;
 mod branch;
 mod correct;
 mod diagram;
@@ -23,15 +24,17 @@ mod held;
 mod locate;
 mod locus;
 mod natural;
+mod near_miss;
+mod place;
 mod predict;
 mod switch;
 mod walk;
 
+pub use between::at as between;
 pub use branch::{Branch, Ended, Limits, Special, SpecialKind, begin};
 pub use correct::{Point, reversed};
 pub use diagram::{Diagram, diagram};
 pub use equations::{Direction, Equations, Failed, Stability};
 pub use held::{Held, HeldState, Work};
-pub use locate::at as between;
 pub use locus::{Locus, Plane, locus};
 pub use natural::{Natural, NaturalFamily};

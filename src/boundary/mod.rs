@@ -63,7 +63,7 @@ pub use adapt::{Defects, Estimate, defects, refined, symmetrised, transferred};
 pub use correct::{Bordered, Line};
 pub use deflation::find;
 pub use dense::Determinant;
-pub use ends::{At, End, Hold};
+pub use ends::{At, End, Hold, Units};
 pub use extremes::Extremes;
 pub use family::Family;
 pub use gauss::MAX_DEGREE;

@@ -6,34 +6,13 @@ use std::time::{Duration, Instant};
 use nalgebra::Vector3;
 
 use super::equations::{Direction, Equations, Failed, Stability, dot, plus, unit};
+use super::held_state::HeldState;
 use super::locus::Plane;
 use crate::InvalidInput;
 use crate::boundary::{
-    Bordered, Correction, Defects, Estimate, Failure, Family, Iterate, Layout, Line, Mesh, Problem, Solution,
-    Spring, Stepper, System, defects, goal, refined, symmetrised, transferred,
+    Bordered, Correction, Defects, Failure, Family, Layout, Line, Problem, Spring, System, Units, defects,
+    goal, transferred,
 };
-use crate::section::Strain;
-
-/// A discrete equilibrium with its mesh.
-#[derive(Clone, Debug)]
-pub struct HeldState {
-    /// Ends of the elements, over the length.
-    pub nodes: Arc<Vec<f64>>,
-    /// The unknowns.
-    pub x: Iterate,
-}
-
-impl HeldState {
-    /// A solution, on a mesh that is symmetric if its own nearly is.
-    ///
-    /// # Errors
-    /// Where a section is refused.
-    pub fn of(solution: &Solution) -> Result<Self, InvalidInput> {
-        let (problem, nodes) = (solution.problem(), solution.nodes().to_vec());
-        let mesh = Mesh::new(problem, nodes.clone(), solution.degree())?;
-        transferred_to(&mesh, solution.iterate(), symmetrised(nodes, problem), solution.degree())
-    }
-}
 
 /// How long the parts of the work took, but for the rest.
 #[derive(Clone, Copy, Debug, Default)]
@@ -61,6 +40,8 @@ pub struct Held {
     at: Option<(f64, Arc<Problem>)>,
     nodes: Arc<Vec<f64>>,
     system: Option<System>,
+    /// By which changes are measured all along: those of the first problem.
+    units: Option<Units>,
     bordered: Option<Bordered>,
     /// Where the equations were linearised.
     linearised: Option<(HeldState, f64)>,
@@ -75,8 +56,6 @@ pub struct Held {
 const DIFFERENCE: f64 = 1e-7;
 /// A distance, in the norm of changes, at which the equations are nearly the same.
 const NEAR: f64 = 2e-5;
-/// Elements that are too many.
-const MOST_ELEMENTS: usize = 1000;
 /// Error that a finer mesh is made for, of the tolerance.
 const MARGIN: f64 = 0.02;
 
@@ -104,6 +83,7 @@ impl Held {
             at: None,
             nodes,
             system: None,
+            units: None,
             bordered: None,
             linearised: None,
             motions: None,
@@ -132,32 +112,21 @@ impl Held {
         if self.exchanged { [self.other, t] } else { [t, self.other] }
     }
 
-    /// Ends of elements at a parameter, where the ribbon has this length.
-    #[must_use]
-    pub fn places(nodes: &[f64], length: f64) -> Vec<f64> {
-        let mut places: Vec<f64> = nodes.iter().map(|s| s * length).collect();
-        places.last_mut().into_iter().for_each(|s| *s = length);
-        places
-    }
-
     /// The equations at a parameter, on the mesh of a state.
     fn system(&mut self, x: &HeldState, t: f64) -> Result<&mut System, Failed> {
         let problem = self.problem(t)?;
         let known = Arc::ptr_eq(&self.nodes, &x.nodes);
-        match (self.system.take(), known) {
-            (Some(mut system), true) => {
+        match self.system.take().filter(|_| known) {
+            Some(mut system) => {
                 system.turn_to(&problem)?;
                 Ok(self.system.insert(system))
             }
-            (old, _) => {
-                let mesh = Mesh::new(&problem, Self::places(&x.nodes, problem.length), self.degree)?;
+            None => {
+                let mesh = x.mesh(&problem, self.degree)?;
                 let mut system = System::with_layout(mesh, self.layout)?;
                 // Free motions are found, whatever they are.
                 system.holds_gliding = false;
-                // Changes are measured by the same units all along.
-                if let Some(old) = old {
-                    system.units = old.units;
-                }
+                system.units = *self.units.get_or_insert(system.units);
                 self.free.clear();
                 self.linearised = None;
                 self.nodes = Arc::clone(&x.nodes);
@@ -364,14 +333,14 @@ impl Equations for Held {
         let line = self.line();
         let some = self.error_for(defects.gaps.clone());
         let error = plus(self, &some, -dot(self, along, &some) / dot(self, along, &line), &line);
-        let (tolerance, degree) = (self.tolerance, self.degree);
+        let tolerance = self.tolerance;
         let system = self.system(x, t)?;
         let mut estimated = defects.estimate(&error.x, &system.mesh.problem);
         estimated.error = estimated.error.max(error.t.abs());
         if estimated.error <= tolerance.min(most) {
             return Ok(None);
         }
-        finer(&system.mesh, x, &estimated, (MARGIN * tolerance).min(0.5 * most), degree).map(Some)
+        x.refined(&system.mesh, &estimated, (MARGIN * tolerance).min(0.5 * most)).map(Some)
     }
 
     fn resolved(
@@ -388,22 +357,15 @@ impl Equations for Held {
         if error <= tolerance {
             return Ok((error, None));
         }
-        let degree = self.degree;
         let system = self.system(x, t)?;
         let mut estimated = defects.estimate(&moved.x, &system.mesh.problem);
         estimated.error = error;
-        Ok((error, Some(finer(&system.mesh, x, &estimated, MARGIN * tolerance, degree)?)))
+        Ok((error, Some(x.refined(&system.mesh, &estimated, MARGIN * tolerance)?)))
     }
 
     fn doubled(&mut self, x: &HeldState, t: f64) -> Result<Option<HeldState>, Failed> {
         let problem = self.problem(t)?;
-        let mesh = Mesh::new(&problem, Self::places(&x.nodes, problem.length), self.degree)?;
-        if mesh.elements() >= MOST_ELEMENTS {
-            return Ok(None);
-        }
-        let halves = mesh.nodes.windows(2).flat_map(|ends| [ends[0], 0.5 * (ends[0] + ends[1])]);
-        let nodes = halves.chain([problem.length]).collect();
-        Ok(Some(transferred_to(&mesh, &x.x, nodes, self.degree)?))
+        Ok(x.doubled(&x.mesh(&problem, self.degree)?)?)
     }
 
     fn on_one_mesh(&self, a: &HeldState, b: &HeldState) -> bool {
@@ -418,17 +380,14 @@ impl Equations for Held {
         t: f64,
     ) -> Result<(HeldState, Correction), Failed> {
         let problem = self.problem(t)?;
-        let meshes = [x, like]
-            .map(|state| Mesh::new(&problem, Self::places(&state.nodes, problem.length), self.degree));
-        let [from, to] = meshes;
-        let (from, to) = (from?, to?);
+        let (from, to) = (x.mesh(&problem, self.degree)?, like.mesh(&problem, self.degree)?);
         let moved = transferred(&x.x, &from, &to)?;
         Ok((HeldState { nodes: Arc::clone(&like.nodes), x: moved }, change.on(&from, &to)))
     }
 
     fn section_direction(&mut self, x: &HeldState, t: f64) -> Option<Direction<Correction>> {
         let problem = self.problem(t).ok()?;
-        let mesh = Mesh::new(&problem, Self::places(&x.nodes, problem.length), self.degree).ok()?;
+        let mesh = x.mesh(&problem, self.degree).ok()?;
         // Only where the strains are free to be the same all along.
         if problem.law.varies()
             || !x.x.nodes.iter().all(|at| at.force.norm() < 1e-9 && at.moment().norm() < 1e-9)
@@ -439,7 +398,7 @@ impl Equations for Held {
         let soft = problem.law.at(0.0).ok()?.neutral(&strain)?;
         let size = soft.rows(1, 3).norm() * problem.length;
         let soft = soft / size;
-        let turned = turned(&mesh, x, &(soft * TURN))?;
+        let turned = x.turned(&mesh, &(soft * TURN))?;
         let units = self.system.as_ref()?.units;
         let nodes = turned.iter().zip(&x.x.nodes).map(|(to, from)| {
             let shift: Vector3<f64> = (to.position - from.position) / (units.length * TURN);
@@ -455,48 +414,8 @@ impl Equations for Held {
     }
 }
 
-/// The state on a mesh on which its error meets a tolerance.
-fn finer(
-    mesh: &Mesh,
-    x: &HeldState,
-    estimated: &Estimate,
-    tolerance: f64,
-    degree: usize,
-) -> Result<HeldState, Failed> {
-    let nodes = symmetrised(refined(mesh, estimated, tolerance), &mesh.problem);
-    if nodes.len() > MOST_ELEMENTS {
-        return Err(Failed::Fine(nodes.len()));
-    }
-    Ok(transferred_to(mesh, &x.x, nodes, degree)?)
-}
-
-/// The state on a mesh of these nodes.
-fn transferred_to(
-    mesh: &Mesh,
-    x: &Iterate,
-    nodes: Vec<f64>,
-    degree: usize,
-) -> Result<HeldState, InvalidInput> {
-    let finer = Mesh::new(&mesh.problem, nodes, degree)?;
-    let moved = transferred(x, mesh, &finer)?;
-    let length = mesh.problem.length;
-    Ok(HeldState { nodes: Arc::new(finer.nodes.iter().map(|s| s / length).collect()), x: moved })
-}
-
 /// Radians by which a ribbon is bent or twisted to see where that leads.
 const TURN: f64 = 1e-6;
-
-/// The nodes of a ribbon whose strains change all along by the same, from its start.
-fn turned(mesh: &Mesh, x: &HeldState, by: &Strain) -> Option<Vec<crate::boundary::At>> {
-    let mut stepper = Stepper::new(&mesh.problem, mesh.gauss).ok()?;
-    let mut nodes = vec![x.x.nodes[0]];
-    for i in 0..mesh.elements() {
-        let strain = |c: f64| x.x.strain(mesh, i, c) + by;
-        let (at, _) = stepper.step(&nodes[i], mesh.nodes[i], mesh.length(i), strain, false).ok()?;
-        nodes.push(at);
-    }
-    Some(nodes)
-}
 
 impl Held {
     /// What the elements of the mesh miss.

@@ -6,7 +6,7 @@
 //! | file | role |
 //! |---|---|
 //! | `equations` | what is to be known of a problem |
-//! | `natural`, `held` | a free section, and a ribbon that is held and loaded |
+//! | `natural`, `held`, `held_state` | a free section, and a ribbon that is held and loaded |
 //! | `predict`, `correct`, `advance` | a step along a branch |
 //! | `branch` | a branch, its beginning and its ends |
 //! | `walk` | along a branch, as far as it is asked for |
@@ -21,6 +21,7 @@ mod correct;
 mod diagram;
 mod equations;
 mod held;
+mod held_state;
 mod locate;
 mod locus;
 mod natural;
@@ -35,6 +36,7 @@ pub use branch::{Branch, Ended, Limits, Special, SpecialKind, begin};
 pub use correct::{Point, reversed};
 pub use diagram::{Diagram, diagram};
 pub use equations::{Direction, Equations, Failed, Stability};
-pub use held::{Held, HeldState, Work};
+pub use held::{Held, Work};
+pub use held_state::HeldState;
 pub use locus::{Locus, Plane, locus};
 pub use natural::{Natural, NaturalFamily};

@@ -11,7 +11,7 @@ use super::boundary::{BoundaryProblem, BoundarySolution};
 use super::interrupt::{detached, interrupted};
 use super::section::SectionLaw;
 use crate::InvalidInput;
-use crate::boundary::{Correction, Family, Mesh, Solution, energies};
+use crate::boundary::{Correction, Family, Solution, energies};
 use crate::continuation::{
     Branch, Ended, Held, HeldState, Limits, Natural, NaturalFamily, Point, SpecialKind, between, locus,
 };
@@ -306,7 +306,7 @@ fn solution(
     degree: usize,
 ) -> Result<BoundarySolution, InvalidInput> {
     let problem = equations.problem(point.t)?;
-    let nodes = Held::places(&point.x.nodes, problem.length);
+    let nodes = point.x.places(problem.length);
     let solution = Solution::found(problem, degree, nodes, point.x.x.clone())?;
     Ok(BoundarySolution::from(solution))
 }
@@ -379,8 +379,7 @@ fn held_row(
     degree: usize,
 ) -> Result<Row, InvalidInput> {
     let problem = equations.problem(point.t)?;
-    let nodes = Held::places(&point.x.nodes, problem.length);
-    let mesh = Mesh::new(&problem, nodes, degree)?;
+    let mesh = point.x.mesh(&problem, degree)?;
     let x = &point.x.x;
     let energies = energies(&mesh, x)?;
     let mut strains = Strain::zeros();

@@ -1,0 +1,94 @@
+//! A discrete equilibrium of a ribbon that is held, and meshes for it.
+
+use std::sync::Arc;
+
+use super::equations::Failed;
+use crate::InvalidInput;
+use crate::boundary::{
+    At, Estimate, Iterate, Mesh, Problem, Solution, Stepper, refined, symmetrised, transferred,
+};
+use crate::section::Strain;
+
+/// Elements that are too many.
+const MOST_ELEMENTS: usize = 1000;
+
+/// A discrete equilibrium with its mesh.
+#[derive(Clone, Debug)]
+pub struct HeldState {
+    /// Ends of the elements, over the length.
+    pub nodes: Arc<Vec<f64>>,
+    /// The unknowns.
+    pub x: Iterate,
+}
+
+impl HeldState {
+    /// A solution, on a mesh that is symmetric if its own nearly is.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    pub fn of(solution: &Solution) -> Result<Self, InvalidInput> {
+        let (problem, nodes) = (solution.problem(), solution.nodes().to_vec());
+        let mesh = Mesh::new(problem, nodes.clone(), solution.degree())?;
+        on_nodes(&mesh, solution.iterate(), symmetrised(nodes, problem))
+    }
+
+    /// Ends of the elements where the ribbon has this length.
+    #[must_use]
+    pub fn places(&self, length: f64) -> Vec<f64> {
+        let mut places: Vec<f64> = self.nodes.iter().map(|s| s * length).collect();
+        places.last_mut().into_iter().for_each(|s| *s = length);
+        places
+    }
+
+    /// Its mesh, for a problem.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    pub fn mesh(&self, problem: &Arc<Problem>, degree: usize) -> Result<Mesh, InvalidInput> {
+        Mesh::new(problem, self.places(problem.length), degree)
+    }
+
+    /// The state on a mesh on which its error meets a tolerance.
+    ///
+    /// # Errors
+    /// Where that has too many elements, or a section is refused.
+    pub fn refined(&self, mesh: &Mesh, estimated: &Estimate, tolerance: f64) -> Result<Self, Failed> {
+        let nodes = symmetrised(refined(mesh, estimated, tolerance), &mesh.problem);
+        if nodes.len() > MOST_ELEMENTS {
+            return Err(Failed::Fine(nodes.len()));
+        }
+        Ok(on_nodes(mesh, &self.x, nodes)?)
+    }
+
+    /// The state with every element halved; `None` where there are too many.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    pub fn doubled(&self, mesh: &Mesh) -> Result<Option<Self>, InvalidInput> {
+        if mesh.elements() >= MOST_ELEMENTS {
+            return Ok(None);
+        }
+        let halves = mesh.nodes.windows(2).flat_map(|ends| [ends[0], 0.5 * (ends[0] + ends[1])]);
+        on_nodes(mesh, &self.x, halves.chain([mesh.problem.length]).collect()).map(Some)
+    }
+
+    /// The nodes of the ribbon whose strains change all along by the same, from its start.
+    pub fn turned(&self, mesh: &Mesh, by: &Strain) -> Option<Vec<At>> {
+        let mut stepper = Stepper::new(&mesh.problem, mesh.gauss).ok()?;
+        let mut nodes = vec![self.x.nodes[0]];
+        for i in 0..mesh.elements() {
+            let strain = |c: f64| self.x.strain(mesh, i, c) + by;
+            let (at, _) = stepper.step(&nodes[i], mesh.nodes[i], mesh.length(i), strain, false).ok()?;
+            nodes.push(at);
+        }
+        Some(nodes)
+    }
+}
+
+/// The state on a mesh of these nodes.
+fn on_nodes(mesh: &Mesh, x: &Iterate, nodes: Vec<f64>) -> Result<HeldState, InvalidInput> {
+    let finer = Mesh::new(&mesh.problem, nodes, mesh.gauss.degree)?;
+    let moved = transferred(x, mesh, &finer)?;
+    let length = mesh.problem.length;
+    Ok(HeldState { nodes: Arc::new(finer.nodes.iter().map(|s| s / length).collect()), x: moved })
+}

@@ -283,11 +283,11 @@ pub struct Spent {
     pub allowed: usize,
 }
 
-/// Factorised elements, those whose sections differ counted twice, for what it takes to make these.
+/// Factorised elements, those whose sections differ counted as a quarter more, for what it takes to make these.
 #[must_use]
 pub fn work(system: &System) -> usize {
-    let each = if system.mesh.problem.law.varies() { 2 } else { 1 };
-    each * system.factorisations * system.mesh.elements()
+    let elements = system.factorisations * system.mesh.elements();
+    if system.mesh.problem.law.varies() { elements + elements / 4 } else { elements }
 }
 
 impl Spent {

@@ -43,6 +43,42 @@ fn solve(problem: &Arc<Problem>, settings: &Settings) -> Solution {
     Solution::of(Arc::clone(problem), settings, None).unwrap()
 }
 
+/// Where many states are asked for they are as good as those that are asked for one by one, before and behind a point load.
+#[test]
+fn many_states_are_as_good_as_one() {
+    for degree in 2..=8 {
+        let problem = held([0.0, 3e-6, -2e-6]);
+        let solution = solve(&problem, &Settings { degree, tolerance: 1e-9, ..Settings::default() });
+        let error = solution.report.error;
+        assert!(solution.report.status == Status::Converged && error < 1e-9);
+        // Twenty in each element.
+        let places: Vec<f64> = solution
+            .nodes()
+            .windows(2)
+            .flat_map(|ends| (0..20).map(move |i| ends[0] + (ends[1] - ends[0]) * f64::from(i) / 20.0))
+            .collect();
+        let many = solution.many(&places).unwrap();
+        let mut made = 0;
+        for (there, &s) in many.iter().zip(&places) {
+            let one = solution.at(s).unwrap();
+            let missed = (there.at.position - one.at.position).norm() / 10.0;
+            let turned = 2.0 * (there.at.rotation - one.at.rotation).norm();
+            let strained = (there.strain - one.strain).amax();
+            let largest = one.at.force.norm();
+            let forced = (there.at.force - one.at.force).norm() / largest;
+            // One place of each element was looked at, where that is largest; strains add the sensitivity of the section.
+            assert!(
+                missed.max(turned).max(forced) < 0.2 * error + 4e-15,
+                "{degree} {s} {missed} {turned} {forced} {error}"
+            );
+            assert!(strained < 10.0 * error, "{strained}");
+            made += usize::from(turned > 0.0);
+        }
+        // Most were made from others.
+        assert!(made > places.len() / 2, "{degree} {made} of {}", places.len());
+    }
+}
+
 /// Mattiasson (1981): tip angle, u/L, w/L of the elastica under a dead tip load.
 #[test]
 fn elastica() {

@@ -38,6 +38,7 @@ mod extremes;
 mod fallen;
 mod family;
 mod gauss;
+mod inside;
 mod iterate;
 mod kinks;
 mod known;

@@ -9,6 +9,7 @@ use super::check;
 use super::ends::{At, Hold, directors};
 use super::extremes::Extremes;
 use super::gauss::Gauss;
+use super::inside::Inside;
 use super::iterate::Iterate;
 use super::kinks::Phases;
 use super::known::Guess;
@@ -24,6 +25,11 @@ use crate::InvalidInput;
 use crate::section::Strain;
 
 type Vector = Vector3<f64>;
+
+/// Error inside an element, of that of the solution: as good as at its ends; that of a solution that counts, and rounding.
+const AS_GOOD: f64 = 0.1;
+const MOST_INSIDE: f64 = 1e-6;
+const ROUNDING: f64 = 2e-15;
 
 /// The solution of a [`Problem`], or the last state that was reached.
 #[derive(Debug)]
@@ -331,37 +337,81 @@ impl Solution {
         Ok(self.many(&[s])?[0])
     }
 
-    /// The states at many `s`, each as accurate as the nodes: by a step of the method from the node before, and the
-    /// strains from the resultants there.
+    /// The states at many `s`, each as accurate as the nodes: by a step of the method from the node before or, where there are
+    /// many in an element, from those at a few places of it; the strains from the resultants there.
     ///
     /// # Errors
     /// Where a section is refused.
     pub fn many(&self, places: &[f64]) -> Result<Vec<SectionState>, InvalidInput> {
-        let problem = &self.problem;
-        let gauss = Gauss::of(self.degree);
-        let mut stepper = Stepper::new(problem, gauss)?;
+        let mut stepper = Stepper::new(&self.problem, Gauss::of(self.degree))?;
         let count = self.nodes.len() - 1;
+        let element = |s: f64| self.nodes.partition_point(|&node| node <= s).clamp(1, count) - 1;
+        let mut counts = vec![0; count];
+        places.iter().for_each(|&s| counts[element(s)] += 1);
+        let mut known: Vec<Option<Box<Inside>>> = vec![None; count];
         let mut states = Vec::with_capacity(places.len());
         for &s in places {
-            let i = self.nodes.partition_point(|&node| node <= s).clamp(1, count) - 1;
-            let (start, h) = (self.nodes[i], self.nodes[i + 1] - self.nodes[i]);
-            let strains = &self.x.strains[i * self.degree..(i + 1) * self.degree];
-            let strain = |x: f64| -> Strain { strains.iter().zip(gauss.basis(x)).map(|(e, l)| e * l).sum() };
-            let x = ((s - start) / h).clamp(0.0, 1.0);
-            let at = if x == 0.0 {
-                self.x.nodes[i]
-            } else if x == 1.0 {
-                self.x.nodes[i + 1]
-            } else {
-                let (mut at, _) = stepper.step(&self.x.nodes[i], start, x * h, |c| strain(x * c), true)?;
-                at.rotation *= 1.0 / at.rotation.norm();
-                at
+            let i = element(s);
+            // As many steps are made for the others.
+            if counts[i] > self.degree + 2 {
+                known[i] = self.inside(&mut stepper, i)?.map(Box::new);
+                counts[i] = 0;
+            }
+            let x = ((s - self.nodes[i]) / (self.nodes[i + 1] - self.nodes[i])).clamp(0.0, 1.0);
+            let at = match &known[i] {
+                _ if x == 0.0 => self.x.nodes[i],
+                _ if x == 1.0 => self.x.nodes[i + 1],
+                Some(inside) => inside.at(x),
+                None => self.within(&mut stepper, i, x)?.0,
             };
-            let response = problem.law.at(s)?;
-            let strain = pointwise(&response, &SectionState::resultants(&at), strain(x));
-            states.push(SectionState { strain, at });
+            states.push(self.section(s, at, i, x)?);
         }
         Ok(states)
+    }
+
+    /// What tells all states inside an element, if that is as accurate as its ends.
+    fn inside(&self, stepper: &mut Stepper, i: usize) -> Result<Option<Inside>, InvalidInput> {
+        let gauss = Gauss::of(self.degree);
+        let (start, h) = (self.nodes[i], self.nodes[i + 1] - self.nodes[i]);
+        let mut at_nodes = Vec::with_capacity(self.degree);
+        for &x in &gauss.nodes {
+            let (at, solved) = self.within(stepper, i, x)?;
+            if !solved {
+                return Ok(None);
+            }
+            let s = start + x * h;
+            at_nodes.push((at, self.section(s, at, i, x)?.strain, self.problem.line_load(s)));
+        }
+        let strain = |x: f64| self.strain(i, x);
+        // Before a point load.
+        let (end, _) = stepper.step(&self.x.nodes[i], start, h, strain, false)?;
+        let inside = Inside::new(gauss, [&self.x.nodes[i], &end], h, &at_nodes);
+        let x = inside.farthest();
+        let (there, _) = self.within(stepper, i, x)?;
+        let most = (AS_GOOD * self.report.error.min(MOST_INSIDE)).max(ROUNDING);
+        Ok(if inside.misses(&there, x, self.problem.length) <= most { Some(inside) } else { None })
+    }
+
+    /// The state a part `x` of the way through an element, by a step, and whether its strains were solved for.
+    fn within(&self, stepper: &mut Stepper, i: usize, x: f64) -> Result<(At, bool), InvalidInput> {
+        let (start, h) = (self.nodes[i], self.nodes[i + 1] - self.nodes[i]);
+        let (mut at, solved) =
+            stepper.step(&self.x.nodes[i], start, x * h, |c| self.strain(i, x * c), true)?;
+        at.rotation *= 1.0 / at.rotation.norm();
+        Ok((at, solved))
+    }
+
+    /// The collocation polynomial of the strains of an element.
+    fn strain(&self, i: usize, x: f64) -> Strain {
+        let strains = &self.x.strains[i * self.degree..(i + 1) * self.degree];
+        strains.iter().zip(Gauss::of(self.degree).basis(x)).map(|(e, l)| e * l).sum()
+    }
+
+    /// The section at `s`, a part `x` of the way through an element, with the strains that its resultants ask for.
+    fn section(&self, s: f64, at: At, i: usize, x: f64) -> Result<SectionState, InvalidInput> {
+        let response = self.problem.law.at(s)?;
+        let strain = pointwise(&response, &SectionState::resultants(&at), self.strain(i, x));
+        Ok(SectionState { strain, at })
     }
 
     /// Force and moment that the start and the end exert on the ribbon, in the fixed basis, moments about the end itself.

@@ -39,10 +39,10 @@ develop: .venv/.develop
 demo: develop
 	$(BIN)/ribbonrs run examples/helical_leaf.toml
 
-# The Python tests on all cores.
+# The Python tests on all cores, one thread of linear algebra on each.
 test: develop
 	cargo test --release
-	$(BIN)/python -m pytest --numprocesses auto
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest --numprocesses auto
 
 # All Rust steps here share one set of checked dependencies, that with the python feature.
 lint: develop

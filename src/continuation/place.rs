@@ -188,11 +188,14 @@ pub fn located<E: Equations>(
                 return None;
             }
             meet = true;
-            let (place, error) = root(&points.iter().map(value).collect::<Vec<_>>());
-            points.iter().for_each(|point| narrow([&mut low, &mut high], point));
-            tried.extend(points);
-            if low.s < place && place < high.s && error < best.0 {
-                best = (error, place, tried.len());
+            // Farther ones may lie beyond other special points.
+            if apart == spread {
+                let (place, error) = root(&points.iter().map(value).collect::<Vec<_>>());
+                points.iter().for_each(|point| narrow([&mut low, &mut high], point));
+                tried.extend(points);
+                if low.s < place && place < high.s && error < best.0 {
+                    best = (error, place, tried.len());
+                }
             }
         }
         // Around the root, not at it: there the equations are singular, and another branch is as near.
@@ -227,10 +230,11 @@ pub fn located<E: Equations>(
             return if one { tried.pop() } else { None };
         }
         let mut next = place + [0.5, -0.5, 1.0, -1.0, 1.5][near % MEMORY] * spread;
-        // By halves where the interval does not shrink so fast, and is not small yet.
+        // By halves where the interval does not shrink so fast, and is not small yet, and where the values tell of a root elsewhere.
         let inside = low.s < next && next < high.s;
         let slow = length > 8.0 * spread && length > 0.5 * lengths[0];
-        if slow || !inside && length > 4.0 * spread {
+        let astray = place.is_nan() || place < low.s - spread || place > high.s + spread;
+        if slow || astray || !inside && length > 4.0 * spread {
             next = 0.5 * (low.s + high.s);
         }
         let next = next.clamp(low.s - spread, high.s + spread).clamp(a.s, b.s);

@@ -215,3 +215,24 @@ def test_sections_at_nodes_count(xi):
     S = np.array([0.0, 5.0, 10.0])
     exact = (-7.0 + math.sqrt(259.0)) / 2.0 * 0.01 / 0.03
     assert bends(rb.growth.edge((S, np.array([xi(s) for s in S])))) == pytest.approx(exact, rel=1e-9)
+
+
+def test_crowded_branch_points_are_found_one_by_one():
+    """A strip between clamps a quarter of a turn apart, straight: pushed together by a part in 1900 it can buckle in eight ways."""
+    scene = rb.Scene(rb.Ribbon(19.0, 1.0, 0.03), end=rb.Clamped(twist_turns=0.25))
+
+    def found(tol):
+        start = rb.solve(scene, tol=tol)
+        diagram = rb.trace(scene, "end.position[2]", (18.99, 19.0), start=start, tol=tol, depth=0)
+        (branch,) = diagram.branches
+        assert branch.ended == ("start", "span")
+        places = [point.parameter for point in diagram.special_points if point.kind == "branch_point"]
+        # Every one that is passed counts.
+        assert branch.index[0] == 0
+        assert branch.index[-1] == len(places) == 8
+        return np.array(places)
+
+    exact = found(1e-9)
+    # A straight ribbon is exact on every mesh: that of the shapes into which it buckles counts by its square.
+    for tol in (1e-3, 1e-4, 1e-6):
+        assert np.abs(found(tol) - exact).max() < 1e-4 * tol

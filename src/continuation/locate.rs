@@ -78,6 +78,9 @@ fn between<E: Equations>(
         return between(equations, &middle, b, limits, depth + 1, found);
     }
     let point = located(equations, [a, b], (kind, multiplicity), turns, limits).ok_or(Failed::Jumped)?;
+    if kind == SpecialKind::SectionInstability && hides(equations, [a, b], &point) {
+        return Err(Failed::Jumped);
+    }
     let changed = |from: &Stability, to: &Stability| match kind {
         SpecialKind::SectionInstability => from.section_index.abs_diff(to.section_index),
         _ => from.index.unwrap_or(0).abs_diff(to.index.unwrap_or(0)),
@@ -100,6 +103,41 @@ fn between<E: Equations>(
     found.push(Found { point, kind, multiplicity });
     right.map_or(Ok(()), |right| between(equations, &right, b, limits, depth + 1, found))
 }
+
+/// Whether other special points lie between a section instability and that of two points where sections are stable: the index there
+/// is another, or is not told, as where the mesh, or the step, is too coarse for a soft section. As a section softens they crowd: where
+/// the index is large already no more are looked for.
+fn hides<E: Equations>(equations: &mut E, [a, b]: [&PointOf<E>; 2], point: &PointOf<E>) -> bool {
+    let stable = match [a, b].map(|end| end.stability.section_index) {
+        [0, _] => a,
+        [_, 0] => b,
+        _ => return false,
+    };
+    let Some(index) = stable.stability.index.filter(|index| *index < MANY) else { return false };
+    if (stable.s - point.s).abs() < NEAREST {
+        return false;
+    }
+    let mut told = false;
+    for part in NEARBY {
+        let s = point.s + part * (stable.s - point.s);
+        let beside = if a.s < s && s < b.s { at(equations, a, b, s - a.s) } else { None };
+        let stability = beside.map(|beside| beside.stability).filter(|there| there.section_index == 0);
+        if let Some(there) = stability.and_then(|there| there.index) {
+            if there != index {
+                return true;
+            }
+            told = true;
+        }
+    }
+    !told
+}
+
+/// How far beside a section instability the index is looked at, of the way to a point.
+const NEARBY: [f64; 2] = [0.3, 0.03];
+/// A distance in which nothing is looked for.
+const NEAREST: f64 = 1e-6;
+/// An index that is large: after so many ways to buckle the others before the section instability are passed over.
+const MANY: usize = 10;
 
 /// What changes between two points, and by how much the index, or that of sections.
 fn change<S, C>(a: &Point<S, C>, b: &Point<S, C>) -> Option<(SpecialKind, usize)> {

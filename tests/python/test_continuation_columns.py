@@ -257,3 +257,41 @@ def test_an_arch_against_a_small_load_across_folds(sideways):
     assert (branch.strains[:, 2] > 0.0).all()
     square = sideways ** (2.0 / 3.0)
     close(places(diagram, "fold"), -PI2 / 4.0 - 1.5 * square, span, CLOSE + 0.3 * square**2 / 20.0)
+
+
+# meshes are made for a hundredth of tol, by an estimate; at the last, rounding of 16
+@pytest.mark.parametrize(("tol", "error"), [(1e-4, 1e-6), (1e-6, 1e-7), (1e-9, 2e-12)])
+def test_a_strip_buckles_before_its_sections_soften(tol, error):
+    # Euler's modes of a strip between clamps, with what compression makes of stiffness and length; where its stiffness
+    # against twist vanishes a section is unstable, and a long step leads beyond that past them all
+    L, eta, modes = 16.0, 0.03, 10
+    section = rb.SectionLaw(eta, rb.growth.edge(0.0))
+
+    def at(eps):
+        strains = np.array([eps, 0.0, 0.0, 0.0])
+        return section.gradient(strains)[0], np.diag(section.hessian(strains))
+
+    def unbalanced(eps, q):
+        n3, stiffness = at(eps)
+        return -n3 * (1.0 + eps) - stiffness[2] * q**2
+
+    symmetric = [2.0 * math.pi * n for n in range(1, modes)]
+    others = [
+        2.0 * brentq(lambda x: math.sin(x) - x * math.cos(x), n * math.pi, (n + 0.5) * math.pi, xtol=1e-15)
+        for n in range(1, modes)
+    ]
+    waves = np.array(sorted(symmetric + others)[:modes]) / L
+    exact = [L * (1.0 + brentq(unbalanced, -0.01, -1e-9, args=(q,), xtol=1e-16)) for q in waves]
+    softened = L * (1.0 + brentq(lambda eps: at(eps)[1][3], -0.01, 0.0, xtol=1e-16))
+
+    scene = rb.Scene(rb.Ribbon(L, 1.0, eta), end=rb.Clamped())
+    start = rb.solve(scene, tol=tol)
+    diagram = rb.trace(scene, "end.position[2]", (0.9 * L, L), start=start, tol=tol, depth=0)
+    buckled, soft = (
+        np.array([point.parameter for point in diagram.special_points if point.kind == kind])
+        for kind in ("branch_point", "section_instability")
+    )
+    assert diagram.branches[0].ended == ("start", "span")
+    assert (buckled > soft[0]).all()
+    np.testing.assert_allclose(buckled[:modes], exact, rtol=0.0, atol=error)
+    np.testing.assert_allclose(soft, [softened], rtol=0.0, atol=1e-9)

@@ -153,6 +153,16 @@ fn held(c: &mut Criterion) {
     });
     let law = ribbon(Amplitude::Constant(1.0), Growth::edge(0.02));
     let problem = problem(law, Hold::Clamped, 9.0, 0.5);
+    let rough = Settings { tolerance: 1e-4, ..Settings::default() };
+    let solution = Solution::of(Arc::clone(&problem), &rough, None).expect("a solution");
+    group.bench_function("both ends held, 101 poses: from a few of each element", |b| {
+        b.iter(|| black_box(solution.many(&s)));
+    });
+    group.bench_function("both ends held, 101 poses: by a step each", |b| {
+        b.iter(|| {
+            s.iter().map(|&s| black_box(solution.at(s)).map_or(0.0, |state| state.at.position.x)).sum::<f64>()
+        });
+    });
     for (states, layout) in [(7, Layout::Constant), (13, Layout::Full)] {
         let settings = Settings { layout: Some(layout), ..Settings::default() };
         group.bench_function(format!("both ends held, {states} states"), |b| {

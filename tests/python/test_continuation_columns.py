@@ -262,8 +262,8 @@ def test_an_arch_against_a_small_load_across_folds(sideways):
 # meshes are made for a hundredth of tol, by an estimate; at the last, rounding of 16
 @pytest.mark.parametrize(("tol", "error"), [(1e-4, 1e-6), (1e-6, 1e-7), (1e-9, 2e-12)])
 def test_a_strip_buckles_before_its_sections_soften(tol, error):
-    # Euler's modes of a strip between clamps, with what compression makes of stiffness and length; where its stiffness
-    # against twist vanishes a section is unstable, and a long step leads beyond that past them all
+    # Euler's modes of a strip between clamps, with what compression makes of stiffness and length; where its
+    # stiffness against twist vanishes a section is unstable, and a long step leads beyond that past them all
     L, eta, modes = 16.0, 0.03, 10
     section = rb.SectionLaw(eta, rb.growth.edge(0.0))
 

@@ -218,7 +218,7 @@ def test_sections_at_nodes_count(xi):
 
 
 def test_crowded_branch_points_are_found_one_by_one():
-    """A straight strip between clamps a quarter of a turn apart, pushed together by 1/1900: eight ways to buckle."""
+    """A straight strip between clamps a quarter of a turn apart, 1/1900 shorter, has eight ways to buckle."""
     scene = rb.Scene(rb.Ribbon(19.0, 1.0, 0.03), end=rb.Clamped(twist_turns=0.25))
 
     def found(tol):

@@ -20,6 +20,9 @@ use crate::section::Strain;
 /// Position, rotation, force, and moment about the origin.
 type Row = [f64; 13];
 
+/// A state inside an element, its strains, and the distributed force and couple there.
+pub type Known = (At, Strain, (Vector3<f64>, Vector3<f64>));
+
 /// The states inside an element.
 #[derive(Clone, Debug)]
 pub struct Inside {
@@ -50,14 +53,9 @@ fn slope(at: &At, strain: &Strain, (p, c): (Vector3<f64>, Vector3<f64>)) -> Row 
 }
 
 impl Inside {
-    /// From the states at both ends, and at the Gauss nodes with strains and loads there; `length` is that of the element.
+    /// From the states at both ends, and what is known at the Gauss nodes; `length` is that of the element.
     #[must_use]
-    pub fn new(
-        gauss: &'static Gauss,
-        ends: [&At; 2],
-        length: f64,
-        at_nodes: &[(At, Strain, (Vector3<f64>, Vector3<f64>))],
-    ) -> Self {
+    pub fn new(gauss: &'static Gauss, ends: [&At; 2], length: f64, at_nodes: &[Known]) -> Self {
         let (mut values, mut slopes) = ([[0.0; 13]; MAX_DEGREE], [[0.0; 13]; MAX_DEGREE]);
         for (j, (at, strain, load)) in at_nodes.iter().enumerate() {
             values[j] = of(at);

@@ -14,6 +14,8 @@ const MOST: usize = 60;
 /// Estimate of an error of a search that is small enough, and the same of the tolerance of points.
 const EXACT: f64 = 2e-12;
 const LOCATED: f64 = 0.05;
+/// The same of the distance from the ends of the interval.
+const FROM_ENDS: f64 = 0.1;
 /// Of the parameter, where rounding keeps it larger.
 const ROUNDING: f64 = 1e-10;
 /// An interval that is no longer divided.
@@ -207,7 +209,10 @@ pub fn located<E: Equations>(
                 && best.0 * a.along.t.abs().max(b.along.t.abs()) < ROUNDING;
             least = [least[0].min(least[1]), least[2], f64::INFINITY];
         }
-        if meet && (best.0 < EXACT.max(LOCATED * limits.tolerance) || rounding) {
+        // Next to an end that is itself next to a root values agree on that one, until they are taken as near.
+        let from_ends = (best.1 - a.s).abs().min((b.s - best.1).abs());
+        let enough = EXACT.max((LOCATED * limits.tolerance).min(FROM_ENDS * from_ends));
+        if meet && (best.0 < enough || rounding) {
             if gap(equations, &low, &high) > GAP * (high.s - low.s).max(NEAREST) {
                 return None;
             }

@@ -236,3 +236,24 @@ def test_crowded_branch_points_are_found_one_by_one():
     # A straight ribbon is exact on every mesh: that of the shapes into which it buckles counts by its square.
     for tol in (1e-3, 1e-4, 1e-6):
         assert np.abs(found(tol) - exact).max() < 1e-4 * tol
+
+
+def test_two_branch_points_that_nearly_coincide_are_told_apart():
+    # half a turn, and a growth at which two ways to buckle differ by 1.5e-6 of the length
+    L = 13.619743618610823
+    strip = rb.Ribbon(L, 1.0, 0.0601058429426066)
+    scene = rb.Scene(strip, rb.growth.edge(-0.0011537572062640322), end=rb.Clamped(twist_turns=0.5))
+
+    def found(tol):
+        start = rb.solve(scene, tol=tol)
+        return places(
+            rb.trace(scene, "end.position[2]", (0.99 * L, L), start=start, tol=tol, depth=0), "branch_point"
+        )
+
+    exact = found(1e-8)
+    assert 0.0 < np.abs(np.diff(exact)).min() < 2e-6 * L
+    for tol in (1e-4, 1e-6):
+        rough = found(tol)
+        assert rough.size == exact.size
+        # meshes are made for a hundredth of tol
+        assert np.abs(rough - exact).max() < 1e-2 * tol

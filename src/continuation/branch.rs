@@ -128,10 +128,24 @@ pub fn begin<E: Equations>(
     t: f64,
     limits: &Limits,
 ) -> Result<PointOf<E>, Failed> {
+    within(equations, x, t, NEAR, limits)
+}
+
+/// The same where the state is no farther from the equilibrium than this.
+///
+/// # Errors
+/// If none is as near.
+pub fn within<E: Equations>(
+    equations: &mut E,
+    x: E::State,
+    t: f64,
+    near: f64,
+    limits: &Limits,
+) -> Result<PointOf<E>, Failed> {
     equations.expect_motions(None);
     let guess = Guess { x, t, across: None, sense: None };
     let Corrected { mut point, first } = corrected(equations, guess, limits.tolerance, EXACTLY)?;
-    if first > NEAR {
+    if first > near {
         return Err(Failed::Jumped);
     }
     point.t = t;

@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
+use super::branch::{Limits, begin, within};
+use super::correct::PointOf;
 use super::equations::Failed;
+use super::held::Held;
 use crate::InvalidInput;
 use crate::boundary::{
     At, Estimate, Iterate, Mesh, Problem, Solution, Stepper, refined, symmetrised, transferred,
@@ -21,17 +24,35 @@ pub struct HeldState {
     pub x: Iterate,
 }
 
-impl HeldState {
-    /// A solution, on a mesh that is symmetric if its own nearly is.
-    ///
-    /// # Errors
-    /// Where a section is refused.
-    pub fn of(solution: &Solution) -> Result<Self, InvalidInput> {
-        let (problem, nodes) = (solution.problem(), solution.nodes().to_vec());
-        let mesh = Mesh::new(problem, nodes.clone(), solution.degree())?;
-        on_nodes(&mesh, solution.iterate(), symmetrised(nodes, problem))
+/// The first point of the branch through a solution: its own, then that on a mesh which is symmetric, if its own nearly is. Between its stages
+/// the error of strains is larger than that of the solution.
+///
+/// # Errors
+/// If it is no equilibrium there, or a section is refused.
+pub fn begin_with(
+    equations: &mut Held,
+    solution: &Solution,
+    t: f64,
+    limits: &Limits,
+) -> Result<PointOf<Held>, Failed> {
+    let (problem, nodes) = (solution.problem(), solution.nodes().to_vec());
+    let symmetric = symmetrised(nodes.clone(), problem);
+    let mesh = Mesh::new(problem, nodes, solution.degree())?;
+    let moved = mesh.nodes.iter().zip(&symmetric).map(|(from, to)| (from - to).abs()).fold(0.0, f64::max);
+    if moved < ROUNDING * problem.length {
+        return begin(equations, on_nodes(&mesh, solution.iterate(), symmetric)?, t, limits);
     }
+    let own = on_nodes(&mesh, solution.iterate(), mesh.nodes.clone())?;
+    let first = begin(equations, own, t, limits)?;
+    within(equations, on_nodes(&mesh, &first.x.x, symmetric)?, t, BETWEEN, limits)
+}
 
+/// Distance of nodes, over the length, that changes nothing between stages.
+const ROUNDING: f64 = 1e-12;
+/// Distance, in strains and angles, of a state that was interpolated from the equilibrium.
+const BETWEEN: f64 = 0.1;
+
+impl HeldState {
     /// Ends of the elements where the ribbon has this length.
     #[must_use]
     pub fn places(&self, length: f64) -> Vec<f64> {

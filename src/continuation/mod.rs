@@ -37,6 +37,6 @@ pub use correct::{Point, reversed};
 pub use diagram::{Diagram, diagram};
 pub use equations::{Direction, Equations, Failed, Stability};
 pub use held::{Held, Work};
-pub use held_state::HeldState;
+pub use held_state::{HeldState, begin_with};
 pub use locus::{Locus, Plane, locus};
 pub use natural::{Natural, NaturalFamily};

@@ -12,7 +12,7 @@ use super::traced::{Asked, HeldBranch, NaturalBranch, TracedBranch, limits};
 use crate::InvalidInput;
 use crate::boundary::Family;
 use crate::continuation::{
-    Branch, Held, HeldState, Limits, Natural, NaturalFamily, Point, Work, begin, diagram, reversed,
+    Branch, Held, Limits, Natural, NaturalFamily, Point, Work, begin, begin_with, diagram, reversed,
 };
 use crate::equilibrium::natural_shapes;
 
@@ -84,20 +84,17 @@ pub fn trace(
     let family = Family::new(vec![problems.0.problem(), problems.1.problem()])?;
     let solution = start.solution();
     let t = (start_value - span[0]) / (span[1] - span[0]);
-    let state = {
-        // The stages are those of its own degree.
-        if solution.degree() != degree {
-            let expected = format!("a state of degree {degree}");
-            return Err(InvalidInput::new("start", solution.degree(), &expected).into());
-        }
-        HeldState::of(solution)?
-    };
+    // The stages are those of its own degree.
+    if solution.degree() != degree {
+        let expected = format!("a state of degree {degree}");
+        return Err(InvalidInput::new("start", solution.degree(), &expected).into());
+    }
     let limits = Limits { tolerance: (0.1 * tol).max(1e-14), ..limits(span, &values, max_steps) };
     let asked = Asked { span, values: &values };
     let (branches, special, work) = detached(py, || {
         let started = Instant::now();
         let mut equations = Held::new(family, 0.0, degree, tol);
-        let begun = begin(&mut equations, state, t, &limits);
+        let begun = begin_with(&mut equations, solution, t, &limits);
         let first = begun.map_err(|failed| {
             InvalidInput::new("start", start_value, &format!("an equilibrium: {failed}"))
         })?;

@@ -99,10 +99,11 @@ def test_the_mesh_does_not_matter(degree, tol):
 
 
 @cache
-def symmetric_strip(tol):
+def symmetric_strip(tol, **arguments):
     """From the symmetric state, onto the branch that breaks its symmetry."""
     scene = rb.Scene(STRIP, rb.growth.edge(0.02), end=rb.Clamped(twist_turns=0.5))
-    return rb.trace(scene, "end.position[2]", (9.0, 10.0), start=rb.solve(scene, tol=tol), tol=tol, depth=1)
+    start = rb.solve(scene, tol=tol, **arguments)
+    return rb.trace(scene, "end.position[2]", (9.0, 10.0), start=start, tol=tol, depth=1, **arguments)
 
 
 @pytest.mark.parametrize("tol", [1e-4, 1e-6, 1e-7, 3e-8, 1e-9])
@@ -115,6 +116,14 @@ def test_no_tolerance_leads_back_to_the_symmetric_branch(tol):
     ends = [np.abs(diagram.branches[1].state(-1).reactions.start.force) for diagram in (fine, other)]
     # Of a force that is small beside the others no more digits are asked for.
     np.testing.assert_allclose(ends[1], ends[0], rtol=0.0, atol=tol * ends[0].max())
+
+
+@pytest.mark.parametrize(("degree", "tol"), [(3, 1e-4), (3, 1e-5), (4, 1e-6)])
+def test_a_state_on_a_coarse_mesh_is_a_start(degree, tol):
+    # Moved to a symmetric mesh, where it begins, such a state is farther from the equilibrium than its error.
+    fine, other = symmetric_strip(1e-10), symmetric_strip(tol, degree=degree)
+    np.testing.assert_allclose(places(other, "branch_point"), places(fine, "branch_point"), rtol=tol)
+    np.testing.assert_allclose(places(other, "fold"), places(fine, "fold"), rtol=tol)
 
 
 # --- an independent count

@@ -119,6 +119,11 @@ pub fn corrected<E: Equations>(
         x = equations.moved(&x, &change.x, 1.0);
         t += change.t;
         before = size;
+        // What a correction with new factors leaves is of the second order in it.
+        if size <= tolerance.min(aside) {
+            let point = reached(equations, (x, t), linearised, &line, (across, sense))?;
+            return Ok(Corrected { point, first });
+        }
         if size > SMALL {
             continue;
         }
@@ -138,10 +143,8 @@ pub fn corrected<E: Equations>(
             let left = if rate < FAST { rate * again } else { again };
             let enough = rounding && size < negligible || close && (rounding || left <= tolerance);
             if enough {
-                return Ok(Corrected {
-                    point: reached(equations, (x, t), linearised, &line, (across, sense))?,
-                    first,
-                });
+                let point = reached(equations, (x, t), linearised, &line, (across, sense))?;
+                return Ok(Corrected { point, first });
             }
             if rate.is_nan() || rate >= FAST {
                 break;

@@ -28,7 +28,7 @@ const SHORT: f64 = 0.05;
 const BEYOND: f64 = 0.4 * SHORT;
 /// Values by which a root is interpolated, and how far around it they are taken.
 const MEMORY: usize = 5;
-const SPREAD: f64 = 1e-3;
+const SPREAD: f64 = 1.5e-3;
 /// How well the place is known, of that, once it is asked whether two branches meet there.
 const KNOWN: f64 = 0.1;
 
@@ -154,7 +154,7 @@ pub fn located<E: Equations>(
     };
     let mut tried: Vec<PointOf<E>> = Vec::new();
     let mut lengths = [f64::INFINITY; 2];
-    let mut previous = f64::INFINITY;
+    let mut previous = f64::NAN;
     let mut spread = SPREAD.min(0.1 * (b.s - a.s));
     // The least error so far, its place, and how many values it is of; the least with values taken as near as now, and the two times before, and whether that helped.
     let mut best = (f64::INFINITY, 0.0, 0);
@@ -165,11 +165,9 @@ pub fn located<E: Equations>(
         let length = high.s - low.s;
         let multiplicity = multiplicity(&low, &high);
         let value = |point: &PointOf<E>| (point.s, function(point, multiplicity));
-        // By the last values near the root; the first time by those at the ends.
-        let mut known: Vec<(f64, f64)> = tried.iter().rev().take(MEMORY).map(&value).collect();
-        if known.len() < 2 {
-            known = vec![value(&low), value(&high)];
-        }
+        // By the last values near the root; the first time by those before.
+        let last = if tried.len() < 2 { &seen } else { &tried };
+        let known: Vec<(f64, f64)> = last.iter().rev().take(MEMORY).map(&value).collect();
         let (place, error) = root(&known);
         let error = error.max((place - previous).abs());
         previous = place;

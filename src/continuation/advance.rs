@@ -12,8 +12,10 @@ const PREDICTION: f64 = 5e-3;
 const FAR: f64 = 8.0 * PREDICTION;
 pub const TURN: f64 = 0.7;
 const AHEAD: f64 = 0.5;
-/// How far from a point its tangent may be taken, of the step; its change of the parameter below which it may have the wrong sign.
+/// How far from a point its tangent may be taken, of the step; its change of the parameter below which it may have the wrong sign, over how far
+/// that was, and at most.
 const ASIDE: f64 = 1e-3;
+const TURNED: f64 = 1e4;
 const SHALLOW: f64 = 1e-2;
 
 /// A point that a step led to.
@@ -31,7 +33,7 @@ impl<E: Equations> Advanced<E> {
     /// The length of the next step after one of this length, by the error of the prediction.
     pub fn next_step(&self, step: f64, limits: &Limits) -> f64 {
         let factor = (PREDICTION / self.error.max(1e-12)).powf(1.0 / (self.order as f64 + 1.0));
-        (step * (0.9 * factor).clamp(0.3, 2.5)).min(limits.longest)
+        (step * (0.9 * factor).clamp(0.3, 4.0)).min(limits.longest)
     }
 }
 
@@ -100,9 +102,9 @@ fn reached<E: Equations>(
 ) -> Result<(PointOf<E>, f64), Failed> {
     let sense = Some(&last.along);
     let aside = ROUGHLY.min(ASIDE * step);
-    let Corrected { point, first } =
+    let Corrected { point, first, aside } =
         corrected(equations, Guess { x, t, across, sense }, limits.tolerance, aside)?;
-    if point.along.t.abs() > SHALLOW {
+    if point.along.t.abs() > (TURNED * aside).min(SHALLOW) {
         return Ok((point, first));
     }
     let again = Guess { x: point.x, t: point.t, across, sense };

@@ -144,7 +144,7 @@ pub fn within<E: Equations>(
 ) -> Result<PointOf<E>, Failed> {
     equations.expect_motions(None);
     let guess = Guess { x, t, across: None, sense: None };
-    let Corrected { mut point, first } = corrected(equations, guess, limits.tolerance, EXACTLY)?;
+    let Corrected { mut point, first, .. } = corrected(equations, guess, limits.tolerance, EXACTLY)?;
     if first > near {
         return Err(Failed::Jumped);
     }

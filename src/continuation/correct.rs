@@ -65,6 +65,8 @@ pub struct Corrected<E: Equations> {
     pub point: PointOf<E>,
     /// Size of the first correction: the error of the guess.
     pub first: f64,
+    /// Size of the last with new factors: how far from the equilibrium its tangent and stability were taken.
+    pub aside: f64,
 }
 
 /// Linearisations that are too many.
@@ -122,7 +124,7 @@ pub fn corrected<E: Equations>(
         // What a correction with new factors leaves is of the second order in it.
         if size <= tolerance.min(aside) {
             let point = reached(equations, (x, t), linearised, &line, (across, sense))?;
-            return Ok(Corrected { point, first });
+            return Ok(Corrected { point, first, aside: size });
         }
         if size > SMALL {
             continue;
@@ -144,7 +146,7 @@ pub fn corrected<E: Equations>(
             let enough = rounding && size < negligible || close && (rounding || left <= tolerance);
             if enough {
                 let point = reached(equations, (x, t), linearised, &line, (across, sense))?;
-                return Ok(Corrected { point, first });
+                return Ok(Corrected { point, first, aside: size });
             }
             if rate.is_nan() || rate >= FAST {
                 break;

@@ -26,11 +26,14 @@ const GAP: f64 = 3.0;
 /// An interval in which places are measured along its first tangent, and how far beyond the place of a change it is to end.
 const SHORT: f64 = 0.05;
 const BEYOND: f64 = 0.4 * SHORT;
+/// A ratio of values at its ends by which it is rather divided by halves.
+const EVEN: f64 = 0.01;
 /// Values by which a root is interpolated, and how far around it they are taken.
 const MEMORY: usize = 5;
 const SPREAD: f64 = 1.5e-3;
-/// How well the place is known, of that, once it is asked whether two branches meet there.
-const KNOWN: f64 = 0.1;
+/// How well the place is known, of that, once it is asked whether two branches meet there, and how far it may be from where those points tell.
+const KNOWN: f64 = 0.25;
+const WITHIN: f64 = 0.4;
 
 /// The point between at this value of the parameter.
 pub fn at_value<E: Equations>(
@@ -116,12 +119,21 @@ pub fn located<E: Equations>(
     while high.s - low.s > SHORT {
         let length = high.s - low.s;
         let multiplicity = multiplicity(&low, &high);
-        let known: Vec<_> =
-            seen.iter().rev().take(MEMORY).map(|point| (point.s, function(point, multiplicity))).collect();
-        let place = root(&known).0;
-        let next = place + BEYOND.copysign(0.5 * (low.s + high.s) - place);
-        let good = low.s < next && next < high.s && length <= 0.5 * lengths[0];
-        let ahead = if good { next - low.s } else { 0.5 * length };
+        let value = |point: &PointOf<E>| (point.s, function(point, multiplicity));
+        let ends = [&low, &high].map(value);
+        let (place, error) = root(&monotone(&seen.iter().map(value).collect::<Vec<_>>(), ends));
+        let ratio = (ends[0].1 / ends[1].1).abs();
+        let half = 0.5 * (low.s + high.s);
+        let next = if length > 0.5 * lengths[0] {
+            half
+        } else if !(EVEN < ratio && ratio < 1.0 / EVEN) {
+            half
+        } else if error < BEYOND {
+            place + BEYOND.copysign(half - place)
+        } else {
+            place
+        };
+        let ahead = if low.s < next && next < high.s { next } else { half } - low.s;
         lengths = [lengths[1], length];
         let middle = at(equations, &low, &high, ahead)?;
         if before(&middle) {
@@ -166,9 +178,11 @@ pub fn located<E: Equations>(
         let multiplicity = multiplicity(&low, &high);
         let value = |point: &PointOf<E>| (point.s, function(point, multiplicity));
         // By the last values near the root; the first time by those before.
-        let last = if tried.len() < 2 { &seen } else { &tried };
-        let known: Vec<(f64, f64)> = last.iter().rev().take(MEMORY).map(&value).collect();
-        let (place, error) = root(&known);
+        let (place, error) = root(&if tried.len() < 2 {
+            monotone(&seen.iter().map(value).collect::<Vec<_>>(), [&low, &high].map(value))
+        } else {
+            tried.iter().rev().take(MEMORY).map(value).collect()
+        });
         let error = error.max((place - previous).abs());
         previous = place;
         let inside = low.s - NEAREST < place && place < high.s + NEAREST;
@@ -182,15 +196,17 @@ pub fn located<E: Equations>(
             let (places, apart) = around(place, spread, limits);
             let points: Vec<PointOf<E>> =
                 places.iter().map(|&s| beside(equations, &tried, s, apart)).collect::<Option<_>>()?;
+            // Farther ones may lie beyond other special points.
+            let (refined, error) = root(&points.iter().map(value).collect::<Vec<_>>());
+            let near = apart == spread && (refined - place).abs() < WITHIN * spread;
+            let place = if near { refined } else { place };
             if points.iter().any(|point| dot(equations, &a.along, &point.along) < TURN)
                 || pass_by(equations, &points, place, from_the_side, limits)
             {
                 return None;
             }
             meet = true;
-            // Farther ones may lie beyond other special points.
-            if apart == spread {
-                let (place, error) = root(&points.iter().map(value).collect::<Vec<_>>());
+            if near {
                 points.iter().for_each(|point| narrow([&mut low, &mut high], point));
                 tried.extend(points);
                 if low.s < place && place < high.s && error < best.0 {
@@ -255,7 +271,26 @@ fn gap<E: Equations>(equations: &mut E, a: &PointOf<E>, b: &PointOf<E>) -> f64 {
     from.iter().zip(&to).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
 }
 
-/// The root of a function by inverse interpolation of its values, and an estimate of its error: by how much the last value counts.
+/// Of values of a function, with two of opposite sign, the nearest to those that are monotone outward from them: by the others another root is
+/// told.
+fn monotone(values: &[(f64, f64)], [low, high]: [(f64, f64); 2]) -> Vec<(f64, f64)> {
+    let mut known = vec![low, high];
+    for (end, outward) in [(low, -1.0), (high, 1.0)] {
+        let distance = |value: &(f64, f64)| outward * (value.0 - end.0);
+        let mut beyond: Vec<_> = values.iter().filter(|value| distance(value) > 0.0).collect();
+        beyond.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let mut last = end.1;
+        known.extend(
+            beyond.into_iter().take_while(|value| value.1 / std::mem::replace(&mut last, value.1) > 1.0),
+        );
+    }
+    let middle = 0.5 * (low.0 + high.0);
+    known[2..].sort_by(|a, b| (a.0 - middle).abs().total_cmp(&(b.0 - middle).abs()));
+    known.truncate(MEMORY);
+    known
+}
+
+/// The root of a function by inverse interpolation of its values, and an estimate of its error: by how much the last value counts, or the third.
 fn root(values: &[(f64, f64)]) -> (f64, f64) {
     let interpolated = |values: &[(f64, f64)]| -> f64 {
         (0..values.len())
@@ -266,5 +301,10 @@ fn root(values: &[(f64, f64)]) -> (f64, f64) {
             .sum()
     };
     let place = interpolated(values);
-    (place, (place - interpolated(&values[..values.len() - 1])).abs())
+    let without = |dropped: usize| {
+        let others: Vec<_> = (0..values.len()).filter(|k| *k != dropped).map(|k| values[k]).collect();
+        (place - interpolated(&others)).abs()
+    };
+    let last = values.len() - 1;
+    (place, if last == 1 { (values[1].0 - values[0].0).abs() } else { without(last).max(without(2)) })
 }

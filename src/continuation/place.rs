@@ -124,9 +124,8 @@ pub fn located<E: Equations>(
         let (place, error) = root(&monotone(&seen.iter().map(value).collect::<Vec<_>>(), ends));
         let ratio = (ends[0].1 / ends[1].1).abs();
         let half = 0.5 * (low.s + high.s);
-        let next = if length > 0.5 * lengths[0] {
-            half
-        } else if !(EVEN < ratio && ratio < 1.0 / EVEN) {
+        let even = EVEN < ratio && ratio < 1.0 / EVEN;
+        let next = if length > 0.5 * lengths[0] || !even {
             half
         } else if error < BEYOND {
             place + BEYOND.copysign(half - place)

@@ -18,21 +18,21 @@ pub fn at<E: Equations>(
         from.along.clone()
     };
     let s = a.s + length;
-    let mut point = stepped_along(equations, (from, to), s - from.s, &across, a)?.0;
+    let mut point = stepped_along(equations, (from, to), s - from.s, (&across, EXACTLY), a)?.0;
     point.s = s;
     Some(point)
 }
 
 /// The point at a place that is measured along a direction, in the plane across it, by a step from a point whose place is known toward
-/// another.
+/// another; its stability is taken no farther aside than this.
 pub fn in_plane<E: Equations>(
     equations: &mut E,
     (from, to): (&PointOf<E>, &PointOf<E>),
     place: f64,
-    across: &DirectionOf<E>,
+    (across, aside): (&DirectionOf<E>, f64),
     sense: &PointOf<E>,
 ) -> Option<PointOf<E>> {
-    let (mut point, moved) = stepped_along(equations, (from, to), place - from.s, across, sense)?;
+    let (mut point, moved) = stepped_along(equations, (from, to), place - from.s, (across, aside), sense)?;
     point.s = from.s + moved;
     Some(point)
 }
@@ -43,7 +43,7 @@ fn stepped_along<E: Equations>(
     equations: &mut E,
     (from, to): (&PointOf<E>, &PointOf<E>),
     step: f64,
-    across: &DirectionOf<E>,
+    (across, aside): (&DirectionOf<E>, f64),
     sense: &PointOf<E>,
 ) -> Option<(PointOf<E>, f64)> {
     let change = if equations.on_one_mesh(&from.x, &to.x) && to.s != from.s {
@@ -55,7 +55,7 @@ fn stepped_along<E: Equations>(
     let moved = dot(equations, across, &change);
     equations.expect_motions(Some(from.stability.free_motions));
     let guess = Guess { x, t: from.t + change.t, across: Some(across), sense: Some(&sense.along) };
-    Some((corrected(equations, guess, 1e-11, EXACTLY).ok()?.point, moved))
+    Some((corrected(equations, guess, 1e-11, aside).ok()?.point, moved))
 }
 
 /// The change from a point to part of the way to another, on Hermite's cubic that has their tangents.

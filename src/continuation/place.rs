@@ -16,6 +16,8 @@ const EXACT: f64 = 2e-12;
 const LOCATED: f64 = 0.05;
 /// The same of the distance from the ends of the interval.
 const FROM_ENDS: f64 = 0.1;
+/// Steps from beyond so many of the distances at which values are taken come from afar.
+const FAR: f64 = 4.0;
 /// Of the parameter, where rounding keeps it larger.
 const ROUNDING: f64 = 1e-10;
 /// An interval that is no longer divided.
@@ -155,7 +157,9 @@ pub fn located<E: Equations>(
             let apart = |point: &&PointOf<E>| (point.s - s).abs();
             let from = tried.iter().chain([&a]).min_by(|p, q| apart(p).total_cmp(&apart(q)))?;
             let to = if from.s - a.s < b.s - from.s { &b } else { &a };
-            in_plane(equations, (from, to), s, &a.along, &a)
+            // From afar the guess is not as good.
+            let aside = if apart(&from) < FAR * spread { EXACTLY } else { EXACT };
+            in_plane(equations, (from, to), s, (&a.along, aside), &a)
         })
     };
     let narrow = |[low, high]: [&mut PointOf<E>; 2], point: &PointOf<E>| {
@@ -193,8 +197,11 @@ pub fn located<E: Equations>(
         }
         if !meet && (error < KNOWN * spread || length < KNOWN * spread) {
             let (places, apart) = around(place, spread, limits);
-            let points: Vec<PointOf<E>> =
-                places.iter().map(|&s| beside(equations, &tried, s, apart)).collect::<Option<_>>()?;
+            let before = tried.len();
+            for s in places {
+                tried.push(beside(equations, &tried, s, apart)?);
+            }
+            let points = tried.split_off(before);
             // Farther ones may lie beyond other special points.
             let (refined, error) = root(&points.iter().map(value).collect::<Vec<_>>());
             let near = apart == spread && (refined - place).abs() < WITHIN * spread;

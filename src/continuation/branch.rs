@@ -2,6 +2,7 @@
 
 use super::correct::{Corrected, EXACTLY, Guess, Point, PointOf, corrected, reversed};
 use super::equations::{Equations, Failed};
+use super::switch::Off;
 
 /// How far a branch is followed, and how well.
 #[derive(Clone, Debug)]
@@ -91,13 +92,15 @@ impl SpecialKind {
 
 /// A special point of a branch.
 #[derive(Clone, Debug)]
-pub struct Special {
+pub struct Special<S, C> {
     /// What.
     pub kind: SpecialKind,
     /// Which of the branch's points.
     pub place: usize,
     /// By how much the index changes at a branch point, or that of sections.
     pub multiplicity: usize,
+    /// A step off a branch point, if one was made already.
+    pub off: Option<Box<Off<S, C>>>,
 }
 
 /// A branch of equilibria.
@@ -106,7 +109,7 @@ pub struct Branch<S, C> {
     /// Its points, along it.
     pub points: Vec<Point<S, C>>,
     /// Those that are special, along it.
-    pub special: Vec<Special>,
+    pub special: Vec<Special<S, C>>,
     /// How it ended: its beginning and its end.
     pub ended: [Ended; 2],
     /// The special point of another branch that it begins at: number of the branch, and of the special point there.
@@ -115,6 +118,8 @@ pub struct Branch<S, C> {
     pub mirrored: bool,
 }
 
+/// The special point of a problem.
+pub type SpecialOf<E> = Special<<E as Equations>::State, <E as Equations>::Change>;
 /// The branch of a problem.
 pub type BranchOf<E> = Branch<<E as Equations>::State, <E as Equations>::Change>;
 

@@ -1,7 +1,7 @@
 //! All branches that hang together with those that are known.
 
 use super::between::at as at_length;
-use super::branch::{BranchOf, Ended, Limits, Special, SpecialKind};
+use super::branch::{BranchOf, Ended, Limits, Special, SpecialKind, SpecialOf};
 use super::correct::{PointOf, reversed};
 use super::equations::Equations;
 use super::locate::{Found, special_points, values_between};
@@ -83,7 +83,7 @@ fn switch<E: Equations>(
         let off = match special.kind {
             // Where two branches have met already, all there are are known.
             SpecialKind::BranchPoint if special.multiplicity > 1 || times_met(equations, met, &at) < 2 => {
-                leaving(equations, &at, special.multiplicity, limits)
+                leaving(equations, &at, special.multiplicity, special.off, limits)
             }
             SpecialKind::SectionInstability => leaving_with_section(equations, &at, limits),
             _ => continue,
@@ -101,6 +101,7 @@ fn switch<E: Equations>(
                 kind: found.kind,
                 place,
                 multiplicity: found.multiplicity,
+                off: None,
             });
             branch.special.splice(0..0, special);
             branch.points.splice(0..0, passed_over.into_iter().map(|found| found.point));
@@ -151,9 +152,9 @@ const NEXT: f64 = 0.1;
 fn mark_values<E: Equations>(branch: &mut BranchOf<E>, limits: &Limits) {
     let own = usize::from(branch.origin.is_some());
     for (place, point) in branch.points.iter().enumerate().skip(own) {
-        let known = |special: &Special| special.place == place && special.kind == SpecialKind::Value;
+        let known = |special: &SpecialOf<E>| special.place == place && special.kind == SpecialKind::Value;
         if limits.values.contains(&point.t) && !branch.special.iter().any(known) {
-            branch.special.push(Special { kind: SpecialKind::Value, place, multiplicity: 1 });
+            branch.special.push(Special { kind: SpecialKind::Value, place, multiplicity: 1, off: None });
         }
     }
     branch.special.sort_by_key(|special| special.place);

@@ -5,6 +5,7 @@ use super::branch::{Limits, SpecialKind};
 use super::correct::{Point, PointOf};
 use super::equations::{Equations, Failed, Stability};
 use super::place::{at_value, located};
+use super::switch::OffOf;
 
 /// A special point that was found.
 pub struct Found<E: Equations> {
@@ -14,6 +15,8 @@ pub struct Found<E: Equations> {
     pub kind: SpecialKind,
     /// By how much the index, or that of sections, changes.
     pub multiplicity: usize,
+    /// A step off a branch point, if one was made.
+    pub off: Option<Box<OffOf<E>>>,
 }
 
 /// Depth to which an interval with several special points is divided.
@@ -53,7 +56,7 @@ pub fn values_between<E: Equations>(
     for &value in &limits.values {
         for pair in points.windows(2).filter(|pair| (pair[0].t - value) * (pair[1].t - value) < 0.0) {
             let point = at_value(equations, pair[0], pair[1], value).ok_or(Failed::Jumped)?;
-            found.push(Found { point, kind: SpecialKind::Value, multiplicity: 1 });
+            found.push(Found { point, kind: SpecialKind::Value, multiplicity: 1, off: None });
         }
     }
     Ok(found)
@@ -100,7 +103,7 @@ fn between<E: Equations>(
     }
     let multiplicity =
         right.as_ref().map_or(multiplicity, |right| changed(&a.stability, &right.stability).max(1));
-    found.push(Found { point, kind, multiplicity });
+    found.push(Found { point, kind, multiplicity, off: None });
     right.map_or(Ok(()), |right| between(equations, &right, b, limits, depth + 1, found))
 }
 

@@ -1,8 +1,20 @@
 //! Onto the branches that meet at a branch point.
 
 use super::branch::Limits;
-use super::correct::{DirectionOf, EXACTLY, Guess, PointOf, corrected};
-use super::equations::{Equations, dot, plus, scaled, unit};
+use super::correct::{DirectionOf, EXACTLY, Guess, Point, PointOf, corrected};
+use super::equations::{Direction, Equations, dot, plus, scaled, unit};
+
+/// A step off a branch point of multiplicity one.
+#[derive(Clone, Debug)]
+pub struct Off<S, C> {
+    /// Across the branch.
+    pub direction: Direction<C>,
+    /// The first point in that direction.
+    pub point: Point<S, C>,
+}
+
+/// The step of a problem.
+pub type OffOf<E> = Off<<E as Equations>::State, <E as Equations>::Change>;
 
 /// First points of the branches that leave a branch point along others than the one it was found on, one of mirror images.
 pub struct Leaving<E: Equations> {
@@ -22,43 +34,50 @@ const SPOKES: usize = 12;
 /// Relative difference of what mirror images have in common.
 const ALIKE: f64 = 1e-6;
 
-/// Steps off a branch point of some multiplicity.
+/// Steps off a branch point of some multiplicity, one of which may be known.
 pub fn leaving<E: Equations>(
     equations: &mut E,
     at: &PointOf<E>,
     multiplicity: usize,
+    off: Option<Box<OffOf<E>>>,
     limits: &Limits,
 ) -> Vec<Leaving<E>> {
-    let across = across(equations, at, multiplicity);
-    let directions: Vec<DirectionOf<E>> = match across.as_slice() {
+    let (across, known) = match off.filter(|_| multiplicity == 1) {
+        Some(off) => (vec![off.direction], Some(off.point)),
+        None => (across(equations, at, multiplicity), None),
+    };
+    let directions = match across.as_slice() {
         [] => Vec::new(),
-        // Toward greater parameters first, where the two differ in that.
         [one] => {
-            let sense = if one.t < -FROM_THE_SIDE { -1.0 } else { 1.0 };
-            vec![scaled(equations, one, sense), scaled(equations, one, -sense)]
+            let mut both = vec![(one.clone(), known), (scaled(equations, one, -1.0), None)];
+            // Toward greater parameters first, where the two differ in that.
+            if one.t < -FROM_THE_SIDE {
+                both.reverse();
+            }
+            both
         }
         // A free motion turns one into all others.
-        [one, ..] if at.stability.free_motions > 0 => vec![one.clone()],
+        [one, ..] if at.stability.free_motions > 0 => vec![(one.clone(), None)],
         [first, second, ..] => (0..SPOKES)
             .map(|i| {
                 let (sin, cos) = (2.0 * std::f64::consts::PI * i as f64 / SPOKES as f64).sin_cos();
-                plus(equations, &scaled(equations, first, cos), sin, second)
+                (plus(equations, &scaled(equations, first, cos), sin, second), None)
             })
             .collect(),
     };
-    steps(equations, at, &directions, limits)
+    steps(equations, at, directions, limits)
 }
 
-/// Steps in some directions, one of mirror images.
+/// Steps in some directions, where they are not known, one of mirror images.
 fn steps<E: Equations>(
     equations: &mut E,
     at: &PointOf<E>,
-    directions: &[DirectionOf<E>],
+    directions: Vec<(DirectionOf<E>, Option<PointOf<E>>)>,
     limits: &Limits,
 ) -> Vec<Leaving<E>> {
     let mut found: Vec<(Leaving<E>, Vec<f64>)> = Vec::new();
-    for direction in directions {
-        let Some(point) = stepped(equations, at, direction, limits) else { continue };
+    for (direction, known) in directions {
+        let Some(point) = known.or_else(|| stepped(equations, at, &direction, limits)) else { continue };
         let mut numbers = equations.invariants(&point.x, point.t);
         numbers.push(point.t);
         match found.iter_mut().find(|(_, known)| alike(known, &numbers)) {
@@ -78,7 +97,7 @@ pub fn leaving_with_section<E: Equations>(
     let Some(direction) = equations.section_direction(&at.x, at.t) else { return Vec::new() };
     let direction = unit(equations, &direction);
     let back = scaled(equations, &direction, -1.0);
-    steps(equations, at, &[direction, back], limits)
+    steps(equations, at, vec![(direction, None), (back, None)], limits)
 }
 
 /// Whether two lists of invariants are of mirror images.

@@ -5,7 +5,7 @@ use super::branch::{BranchOf, Ended, Limits, Special, SpecialKind, is_closed};
 use super::correct::{EXACTLY, Guess, Point, PointOf, corrected};
 use super::equations::{Direction, Equations, Failed};
 use super::locate::{Found, special_points, unlike};
-use super::switch::{across, stepped};
+use super::switch::{Off, across, stepped};
 
 /// The first step.
 const FIRST_STEP: f64 = 0.02;
@@ -193,10 +193,10 @@ impl<'a, E: Equations> Walk<'a, E> {
             self.sharpened += 1;
             return Ok(Attempt::Coarse(finer));
         }
-        let found = found?;
+        let mut found = found?;
         self.sharpened = 0;
         let coarse =
-            found.iter().find_map(|found| unresolved(equations, found, self.limits, self.unresolved));
+            found.iter_mut().find_map(|found| unresolved(equations, found, self.limits, self.unresolved));
         Ok(match coarse {
             Some((finer, place, error)) => {
                 self.unresolved = Some((place, error));
@@ -244,9 +244,9 @@ impl<'a, E: Equations> Walk<'a, E> {
     /// # Errors
     /// If it ends the branch.
     fn pass(&mut self, equations: &mut E, found: Found<E>, stop: &mut Stop<'_, E>) -> Result<(), Ended> {
-        let Found { point, kind, multiplicity } = found;
+        let Found { point, kind, multiplicity, off } = found;
         let stopped = stop(equations, &point, kind);
-        self.branch.special.push(Special { kind, place: self.branch.points.len(), multiplicity });
+        self.branch.special.push(Special { kind, place: self.branch.points.len(), multiplicity, off });
         self.branch.points.push(point);
         if stopped { Err(Ended::Joined) } else { Ok(()) }
     }
@@ -336,17 +336,20 @@ fn are_near<E: Equations>(found: &[Found<E>]) -> bool {
 /// which it buckles. With it the place, and the error of the parameter there.
 fn unresolved<E: Equations>(
     equations: &mut E,
-    found: &Found<E>,
+    found: &mut Found<E>,
     limits: &Limits,
     before: Option<(f64, f64)>,
 ) -> Option<(E::State, f64, f64)> {
-    let Found { point, kind: SpecialKind::BranchPoint, multiplicity } = found else { return None };
-    let off = across(equations, point, *multiplicity).into_iter().next();
-    let aside = off.and_then(|off| Some((stepped(equations, point, &off, limits)?, off)));
-    let (error, finer) = match aside {
-        Some((aside, off)) => {
+    let Found { point, kind: SpecialKind::BranchPoint, multiplicity, off } = found else { return None };
+    let direction = across(equations, point, *multiplicity).into_iter().next();
+    *off = direction.and_then(|direction| {
+        let point = stepped(equations, point, &direction, limits)?;
+        Some(Box::new(Off { direction, point }))
+    });
+    let (error, finer) = match off {
+        Some(off) => {
             let moved = MOVED.max(LOCATED * limits.tolerance);
-            equations.resolved(&aside.x, aside.t, &off, moved).ok()?
+            equations.resolved(&off.point.x, off.point.t, &off.direction, moved).ok()?
         }
         // No other branch is found: once more on a finer mesh.
         None => (UNKNOWN, equations.doubled(&point.x, point.t).ok()?),

@@ -81,9 +81,14 @@ impl Eliminated {
 
     /// Eliminates the strains: factorises their Jacobian, and reduces what the outputs owe them to the inputs.
     pub fn eliminate(&mut self) {
+        self.factorise();
+        if self.loaded() { wide(Reduction::<MOST_INPUTS>(self)) } else { wide(Reduction::<8>(self)) }
+    }
+
+    /// Factorises the Jacobian of the strains alone.
+    pub fn factorise(&mut self) {
         let (size, width) = (self.swaps.len(), self.width());
         self.pivot = eliminate(&mut self.block, width, size, &mut self.swaps);
-        if self.loaded() { wide(Reduction::<MOST_INPUTS>(self)) } else { wide(Reduction::<8>(self)) }
     }
 
     /// Determinant of the Jacobian of the strains, once they are eliminated.

@@ -261,7 +261,7 @@ pub fn followed(
 
 /// Factorised elements of an attempt, and of all, that are too many: some two and four seconds.
 const MOST_WORK: usize = 250_000;
-const MOST_WORK_OF_ALL: usize = 400_000;
+const MOST_WORK_OF_ALL: usize = 320_000;
 /// Factorisations that a finer mesh takes at least.
 const FEWEST: usize = 4;
 /// Error that a mesh on a careful way is made for.

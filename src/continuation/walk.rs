@@ -112,7 +112,7 @@ impl<'a, E: Equations> Walk<'a, E> {
             at_end: false,
             steps: 0,
             // The first mesh is looked at, too.
-            since: CHECKED,
+            since: 0,
             meshes: 0,
             sharpened: 0,
             postponed: 0,

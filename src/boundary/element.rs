@@ -36,7 +36,7 @@ use pulp::NullaryFnOnce;
 use super::dense::wide;
 use super::eliminated::Eliminated;
 use super::gauss::{Gauss, MAX_DEGREE};
-use super::lanes::{Lane, Quaternions, add, all, at, lanes, set, times, times_unit};
+use super::lanes::{Lane, Quaternions, add, all, at, lanes, set, times, times_unit, weighted};
 use super::law::Response;
 use crate::section::Strain;
 
@@ -398,19 +398,20 @@ impl Stages {
                 }
             }
             for c in 0..3 {
-                let mut moved = [0.0; L];
-                for k in 0..S {
-                    add(&mut moved, b[k], &tilt[k][c][i]);
-                }
-                into.readout_mut(i, 1 + c).copy_from_slice(&moved[..S]);
+                let tilt: [Lane<L>; S] = from_fn(|k| tilt[k][c][i]);
+                into.readout_mut(i, 1 + c).copy_from_slice(&weighted(&b, &tilt)[..S]);
                 for j in 0..S {
-                    for k in 0..S {
-                        add(&mut shift[j][1 + c][i], a[j][k], &tilt[k][c][i]);
-                    }
+                    shift[j][1 + c][i] = weighted(&a[j], &tilt);
                 }
             }
         }
-        let levers = if span.load.is_empty() { Vec::new() } else { levers(span, &shift, into) };
+        let levers = (!span.load.is_empty()).then(|| levers(span, &shift, into));
+        // rho x (p x ..) at the stages.
+        let turned: [Matrix3<f64>; S] = from_fn(|k| {
+            span.load
+                .get(k)
+                .map_or_else(Matrix3::zeros, |(p, _)| self.arm[k].cross_matrix() * p.cross_matrix())
+        });
         for j in 0..S {
             let d = &self.directors[j];
             let compliance = span.response(j).compliance;
@@ -428,10 +429,11 @@ impl Stages {
                         rows[1 + i][l] = gx * x[l] + gy * y[l] + gz * z[l];
                     }
                 }
-                for (k, lever) in levers.iter().enumerate() {
+                if let Some(levers) = &levers {
+                    let moment: [Lane<L>; 3] = from_fn(|m| weighted(&a[j], &levers[c][m]));
                     for i in 0..3 {
                         for m in 0..3 {
-                            add(&mut rows[1 + i], -h * a[j][k] * to_directors[(i, m)], &lever[c][m]);
+                            add(&mut rows[1 + i], -h * to_directors[(i, m)], &moment[m]);
                         }
                     }
                 }
@@ -461,47 +463,49 @@ impl Stages {
                 let column = [0, 1, 2].map(|i| -to_directors[(i, input)]);
                 into.put_input(j, 3 + input, [0.0, column[0], column[1], column[2]]);
             }
-            // The load turns by -unit.
-            for input in 0..if span.load.is_empty() { 0 } else { 3 } {
-                let unit = Vector::ith(input, 1.0);
-                let (mut force, mut moment) = (Vector::zeros(), Vector::zeros());
-                for (k, (p, c)) in span.load.iter().enumerate() {
-                    force += unit.cross(p) * (h * a[j][k]);
-                    moment += (self.arm[k].cross(&unit.cross(p)) + unit.cross(c)) * (h * a[j][k]);
-                }
-                let change = -to_directors * (moment - self.arm[j].cross(&force));
-                into.put_input(j, 6 + input, [axial.dot(&force), change.x, change.y, change.z]);
+            if span.load.is_empty() {
+                continue;
+            }
+            // The load turns by -u: force -p x u, moment -(rho x (p x u) + c x u).
+            let (mut force, mut moment) = (Vector::zeros(), Matrix3::zeros());
+            for (k, (p, c)) in span.load.iter().enumerate() {
+                force += p * (h * a[j][k]);
+                moment -= (turned[k] + c.cross_matrix()) * (h * a[j][k]);
+            }
+            let force = force.cross_matrix();
+            let change = -to_directors * (moment + self.arm[j].cross_matrix() * force);
+            let axial = -force.tr_mul(&axial);
+            for input in 0..3 {
+                let column = change.column(input);
+                into.put_input(j, 6 + input, [axial[input], column[0], column[1], column[2]]);
             }
         }
         // The lever turns with the load itself, too.
-        into.lever = Matrix3::zeros();
-        for (arm, ((p, _), weight)) in self.arm.iter().zip(span.load.iter().zip(&span.gauss.weights)) {
-            into.lever += arm.cross_matrix() * p.cross_matrix() * (h * weight);
-        }
+        into.lever =
+            turned.iter().zip(&span.gauss.weights).map(|(turned, weight)| turned * (h * weight)).sum();
     }
 }
 
-/// `p x shift` at the stages; of all, the moment about the start is put where it is read out.
+/// `p x shift` at the stages, by strain and component; of all, the moment about the start is put where it is read out.
 #[inline(always)]
 fn levers<const S: usize, const L: usize>(
     span: &Span<'_>,
     shift: &[[[Lane<L>; 3]; 4]; S],
     into: &mut Eliminated,
-) -> Vec<[[Lane<L>; 3]; 4]> {
-    let mut levers = vec![[[[0.0; L]; 3]; 4]; S];
-    for (k, (p, _)) in span.load.iter().enumerate() {
-        for c in 0..4 {
+) -> [[[Lane<L>; S]; 3]; 4] {
+    let mut levers = [[[[0.0; L]; S]; 3]; 4];
+    let weights: Lane<L> = from_fn(|l| if l < S { -span.length * span.gauss.weights[l] } else { 0.0 });
+    for c in 0..4 {
+        for (k, (p, _)) in span.load.iter().enumerate().take(S) {
             let [x, y, z] = &shift[k][c];
             for l in 0..L {
-                levers[k][c][0][l] = p.y * z[l] - p.z * y[l];
-                levers[k][c][1][l] = p.z * x[l] - p.x * z[l];
-                levers[k][c][2][l] = p.x * y[l] - p.y * x[l];
+                levers[c][0][k][l] = p.y * z[l] - p.z * y[l];
+                levers[c][1][k][l] = p.z * x[l] - p.x * z[l];
+                levers[c][2][k][l] = p.x * y[l] - p.y * x[l];
             }
-            for i in 0..3 {
-                for (sum, lever) in into.readout_mut(6 + i, c).iter_mut().zip(&levers[k][c][i]) {
-                    *sum -= span.length * span.gauss.weights[k] * lever;
-                }
-            }
+        }
+        for i in 0..3 {
+            into.readout_mut(6 + i, c).copy_from_slice(&weighted(&weights, &levers[c][i])[..S]);
         }
     }
     levers

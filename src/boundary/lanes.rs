@@ -46,6 +46,17 @@ pub fn add<const L: usize>(x: &mut Lane<L>, factor: f64, y: &Lane<L>) {
     }
 }
 
+/// The weighted sum of rows.
+#[inline(always)]
+#[must_use]
+pub fn weighted<const L: usize, const S: usize>(weights: &Lane<L>, rows: &[Lane<L>; S]) -> Lane<L> {
+    let mut sum = [0.0; L];
+    for k in 0..S {
+        add(&mut sum, weights[k], &rows[k]);
+    }
+    sum
+}
+
 /// `p q` for every stage.
 #[inline(always)]
 #[must_use]

@@ -239,12 +239,15 @@ impl System {
         order.iter().take(count).map(line).collect()
     }
 
-    /// Determinant of the equations with a parameter, which vanishes at branch points alone; `None` if it is not known.
+    /// Determinant of the equations with a parameter, over those of the stiffnesses at all stages: it vanishes at branch points alone, and not
+    /// as all sections soften, which takes a factor a stage. `None` if it is not known.
     #[must_use]
     pub fn determinant(&self, bordered: &Bordered) -> Option<Determinant> {
         let Kind::Chain { panel, .. } = &bordered.0 else { return None };
         let last = self.chain.determinant().times(panel.determinant());
-        Some(self.elements.iter().map(Eliminated::determinant).fold(last, Determinant::times))
+        let Determinant { sign, log } =
+            self.elements.iter().map(Eliminated::determinant).fold(last, Determinant::times);
+        Some(Determinant { sign, log: log - self.sections.log })
     }
 
     /// A solution of the equations with a parameter for gaps between the elements alone.

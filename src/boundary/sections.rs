@@ -18,11 +18,13 @@ pub struct Sections {
     /// The least determinant, of the stiffness relative to that of the ungrown section; it changes sign with the first
     /// eigenvalue.
     pub least: f64,
+    /// Logarithm of the size of the product of all determinants.
+    pub log: f64,
 }
 
 impl Default for Sections {
     fn default() -> Self {
-        Self { index: 0, least: f64::INFINITY }
+        Self { index: 0, least: f64::INFINITY, log: 0.0 }
     }
 }
 
@@ -50,6 +52,7 @@ impl Sections {
         }
         self.index = self.index.max(negative);
         self.least = if determinant < self.least { determinant } else { self.least };
+        self.log += determinant.abs().ln();
     }
 
     /// The same with the sections at nodes taken into account: the stages alone would miss what happens first at an end, under a point

@@ -259,9 +259,9 @@ pub fn followed(
     }
 }
 
-/// Factorised elements of an attempt, and of all, that are too many: some two and four seconds.
+/// Factorised elements of an attempt, and of all, that are too many: some four and seven seconds.
 const MOST_WORK: usize = 250_000;
-const MOST_WORK_OF_ALL: usize = 320_000;
+const MOST_WORK_OF_ALL: usize = 370_000;
 /// Factorisations that a finer mesh takes at least.
 const FEWEST: usize = 4;
 /// Error that a mesh on a careful way is made for.

@@ -7,10 +7,12 @@ use super::predict::weights;
 
 /// The error of a prediction that steps are made for.
 const PREDICTION: f64 = 5e-3;
-/// An error of a prediction, and a cosine of the angle between tangents, that no step may have; how far ahead along the last tangent it must
-/// lead, of its length: where a branch turns as fast as steps change a prediction may be behind.
+/// An error of a prediction that no step may have.
 const FAR: f64 = 8.0 * PREDICTION;
+/// The least cosine of the angle between the tangents of points in a row.
 pub const TURN: f64 = 0.7;
+/// How far ahead along the last tangent a step must lead, of its length: where a branch turns as fast as steps change a prediction may be
+/// behind.
 const AHEAD: f64 = 0.5;
 /// How far from a point its tangent may be taken, of the step; its change of the parameter below which it may have the wrong sign, over how far
 /// that was, and at most.

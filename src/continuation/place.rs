@@ -232,7 +232,11 @@ pub fn located<E: Equations>(
         // Next to an end that is itself next to a root values agree on that one, until they are taken as near.
         let from_ends = (best.1 - a.s).abs().min((b.s - best.1).abs());
         let enough = EXACT.max((LOCATED * limits.tolerance).min(FROM_ENDS * from_ends));
-        if meet && (best.0 < enough || rounding) {
+        // What was told of another root before.
+        if !(low.s - NEAREST..=high.s + NEAREST).contains(&best.1) {
+            best.0 = f64::INFINITY;
+        }
+        if meet && best.0.is_finite() && (best.0 < enough || rounding) {
             if gap(equations, &low, &high) > GAP * (high.s - low.s).max(NEAREST) {
                 return None;
             }
@@ -313,4 +317,25 @@ fn root(values: &[(f64, f64)]) -> (f64, f64) {
     };
     let last = values.len() - 1;
     (place, if last == 1 { (values[1].0 - values[0].0).abs() } else { without(last).max(without(2)) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_beyond_another_root_tell_of_that() {
+        let ends = [(0.4, 1.0), (0.7, -2.1)];
+        // The determinant turns back at 0.8.
+        let values = [(0.4, 1.0), (1.0, -0.01), (0.97, -2.7), (0.7, -2.1), (0.2, 1.5), (0.1, 1.2), (0.8, -2.8)];
+        assert_eq!(monotone(&values, ends), [ends[0], ends[1], (0.8, -2.8), (0.2, 1.5)]);
+        let cube = |s: f64| (s, (s - 0.5).powi(3) + 0.1 * (s - 0.5));
+        let values: Vec<_> = [0.3, 0.42, 0.53, 0.6, 0.8].map(cube).to_vec();
+        let known = monotone(&values, [values[1], values[2]]);
+        assert_eq!(known.len(), MEMORY);
+        let (place, error) = root(&known);
+        assert!((place - 0.5).abs() < error && error < 2e-2, "{place} {error}");
+        // Of two values any place between is the root.
+        assert_eq!(root(&known[..2]).1, values[2].0 - values[1].0);
+    }
 }

@@ -7,10 +7,10 @@
 
 use std::sync::Arc;
 
-use nalgebra::{Quaternion, Vector3};
+use nalgebra::Vector3;
 
 use super::element::{Entry, Exit, Span, Stages};
-use super::eliminated::{Change, Eliminated};
+use super::eliminated::Eliminated;
 use super::ends::At;
 use super::gauss::{Gauss, MAX_DEGREE};
 use super::law::Response;
@@ -96,6 +96,7 @@ impl Stepper {
         }
         let first = strains;
         let strains = &mut strains[..degree];
+        let mut solved = false;
         let mut before = f64::INFINITY;
         if solve {
             let mut factors = false;
@@ -106,7 +107,7 @@ impl Stepper {
                     self.eliminated.factorise();
                 }
                 let mut changes = [Strain::zeros(); MAX_DEGREE];
-                let change = self.eliminated.solve(&self.stages.residual, &mut changes[..degree]);
+                self.eliminated.solve(&self.stages.residual, &mut changes[..degree]);
                 let size = changes[..degree].iter().map(|e| e.amax()).fold(0.0, f64::max);
                 if !(size < before.max(1e-10)) {
                     break;
@@ -119,25 +120,19 @@ impl Stepper {
                 let rate = if factors { size / before } else { size / scale };
                 let left = if factors { rate * size } else { 1e-7 * size };
                 if left <= 1e-16 * scale || size < 1e-15 * scale.max(1.0) {
-                    // What is left of the end is as little.
-                    return Ok((self::left(at, &changed(exit, &change)), true));
+                    solved = true;
+                    break;
                 }
                 factors = rate < CHORD;
                 before = size;
             }
-            strains.copy_from_slice(&first[..degree]);
+            if !solved {
+                strains.copy_from_slice(&first[..degree]);
+            }
         }
         let exit = self.stages.evaluate(&span, &entry, strains);
-        Ok((left(at, &exit), false))
+        Ok((left(at, &exit), solved))
     }
-}
-
-/// The end changed so little that turns add.
-fn changed(mut exit: Exit, change: &Change) -> Exit {
-    exit.arm += change.arm;
-    exit.rotation += Quaternion::from_imag(0.5 * change.rotation) * exit.rotation;
-    exit.lever += change.lever;
-    exit
 }
 
 /// The state where an element ends, before any point load.

@@ -7,13 +7,13 @@ import tempfile
 from collections import Counter
 from pathlib import Path
 
-from . import boundary, branches, frames, process, section
+from . import boundary, branches, frames, process, section, strips
 from .row import Row
 from .scenes import KINDS
 from .sweep import sweep
 from .trial import DEFECTS
 
-PARTS = (section, frames, boundary, branches, process)
+PARTS = (section, frames, boundary, branches, strips, process)
 SCENES = 10_000
 
 

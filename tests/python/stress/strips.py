@@ -51,20 +51,28 @@ def differs(seed):
     """Whether the branches to both tolerances differ."""
     (ended, points, size), (other_ended, others, _) = (branch(seed, tol) for tol in TOLERANCES)
     same = [kind for _, kind in points] == [kind for _, kind in others] and ended == other_ended
-    places, other_places = ([place for place, _ in list] for list in (points, others))
+    places, other_places = ([place for place, _ in found] for found in (points, others))
     return not (same and np.allclose(places, other_places, rtol=0.0, atol=APART * size))
+
+
+def tried(count):
+    """Yield a seed and whether its branches differ, for all but those whose load no state is found for."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", rb.RibbonWarning)
+        for seed in range(count):
+            try:
+                yield seed, differs(seed)
+            except rb.ConvergenceError:
+                continue
 
 
 def rows(count=60):
     """Yield the row."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", rb.RibbonWarning)
-        wrong = sum(differs(seed) for seed in range(count))
-    yield Row("branches", "of random strips, those that differ with tol 1e-6 and 1e-9", count, wrong, 0)
+    found = [wrong for _, wrong in tried(count)]
+    yield Row("branches", "of strips, other with tol 1e-6 than with 1e-9", len(found), sum(found), 0)
 
 
 if __name__ == "__main__":
-    warnings.simplefilter("ignore", rb.RibbonWarning)
-    for seed in range(int(sys.argv[1])):
-        if differs(seed):
+    for seed, wrong in tried(int(sys.argv[1])):
+        if wrong:
             print(seed, *(branch(seed, tol) for tol in TOLERANCES))

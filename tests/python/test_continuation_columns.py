@@ -259,8 +259,8 @@ def test_an_arch_against_a_small_load_across_folds(sideways):
     close(places(diagram, "fold"), -PI2 / 4.0 - 1.5 * square, span, CLOSE + 0.3 * square**2 / 20.0)
 
 
-# meshes are made for a hundredth of tol, by an estimate; at the last, rounding of 16
-@pytest.mark.parametrize(("tol", "error"), [(1e-4, 1e-6), (1e-6, 1e-7), (1e-9, 2e-12)])
+# meshes are made for a hundredth of tol of the span of 1.6, by an estimate; at the last, rounding of 16
+@pytest.mark.parametrize(("tol", "error"), [(1e-4, 1.6e-6), (1e-6, 1.6e-8), (1e-9, 2e-12)])
 def test_a_strip_buckles_before_its_sections_soften(tol, error):
     # Euler's modes of a strip between clamps, with what compression makes of stiffness and length; where its
     # stiffness against twist vanishes a section is unstable, and a long step leads beyond that past them all
@@ -275,14 +275,15 @@ def test_a_strip_buckles_before_its_sections_soften(tol, error):
         n3, stiffness = at(eps)
         return -n3 * (1.0 + eps) - stiffness[2] * q**2
 
-    symmetric = [2.0 * math.pi * n for n in range(1, modes)]
+    softened = brentq(lambda eps: at(eps)[1][3], -0.01, 0.0, xtol=1e-16)
+    symmetric = [2.0 * math.pi * n for n in range(1, 20)]
     others = [
         2.0 * brentq(lambda x: math.sin(x) - x * math.cos(x), n * math.pi, (n + 0.5) * math.pi, xtol=1e-15)
-        for n in range(1, modes)
+        for n in range(1, 20)
     ]
-    waves = np.array(sorted(symmetric + others)[:modes]) / L
-    exact = [L * (1.0 + brentq(unbalanced, -0.01, -1e-9, args=(q,), xtol=1e-16)) for q in waves]
-    softened = L * (1.0 + brentq(lambda eps: at(eps)[1][3], -0.01, 0.0, xtol=1e-16))
+    waves = [q for q in np.array(sorted(symmetric + others)) / L if unbalanced(softened, q) > 0.0]
+    exact = [brentq(unbalanced, softened, -1e-9, args=(q,), xtol=1e-16) for q in waves]
+    softened, *exact = (L * (1.0 + eps) for eps in (softened, *exact))
 
     scene = rb.Scene(rb.Ribbon(L, 1.0, eta), end=rb.Clamped())
     start = rb.solve(scene, tol=tol)
@@ -293,5 +294,9 @@ def test_a_strip_buckles_before_its_sections_soften(tol, error):
     )
     assert diagram.branches[0].ended == ("start", "span")
     assert (buckled > soft[0]).all()
-    np.testing.assert_allclose(buckled[:modes], exact, rtol=0.0, atol=error)
+    np.testing.assert_allclose(buckled[:modes], exact[:modes], rtol=0.0, atol=error)
+    # not all of the others are found, but what is found are they: where the step off the branch is longer than they are apart, less well
+    assert modes <= buckled.size <= len(exact)
+    nearest = np.array(exact)[np.abs(np.array(exact)[:, None] - buckled).argmin(axis=0)]
+    np.testing.assert_allclose(buckled, nearest, rtol=0.0, atol=10.0 * error)
     np.testing.assert_allclose(soft, [softened], rtol=0.0, atol=1e-9)

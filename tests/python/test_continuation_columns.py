@@ -295,7 +295,7 @@ def test_a_strip_buckles_before_its_sections_soften(tol, error):
     assert diagram.branches[0].ended == ("start", "span")
     assert (buckled > soft[0]).all()
     np.testing.assert_allclose(buckled[:modes], exact[:modes], rtol=0.0, atol=error)
-    # not all of the others are found, but what is found are they: where the step off the branch is longer than they are apart, less well
+    # not all of the others are found, but what is found is one of them, less well where they crowd
     assert modes <= buckled.size <= len(exact)
     nearest = np.array(exact)[np.abs(np.array(exact)[:, None] - buckled).argmin(axis=0)]
     np.testing.assert_allclose(buckled, nearest, rtol=0.0, atol=10.0 * error)

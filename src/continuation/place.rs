@@ -327,7 +327,8 @@ mod tests {
     fn values_beyond_another_root_tell_of_that() {
         let ends = [(0.4, 1.0), (0.7, -2.1)];
         // The determinant turns back at 0.8.
-        let values = [(0.4, 1.0), (1.0, -0.01), (0.97, -2.7), (0.7, -2.1), (0.2, 1.5), (0.1, 1.2), (0.8, -2.8)];
+        let values =
+            [(0.4, 1.0), (1.0, -0.01), (0.97, -2.7), (0.7, -2.1), (0.2, 1.5), (0.1, 1.2), (0.8, -2.8)];
         assert_eq!(monotone(&values, ends), [ends[0], ends[1], (0.8, -2.8), (0.2, 1.5)]);
         let cube = |s: f64| (s, (s - 0.5).powi(3) + 0.1 * (s - 0.5));
         let values: Vec<_> = [0.3, 0.42, 0.53, 0.6, 0.8].map(cube).to_vec();

@@ -109,13 +109,25 @@ fn march(s: &[f64], start: &Pose, twist: impl Fn(usize, f64) -> Twist) -> Vec<Po
 ///
 /// Written as differences from the strain at node `i`, so that constant strain stays exactly so.
 fn cubic(s: &[f64], strains: &[Strain], i: usize, x: f64) -> Strain {
-    let count = s.len().min(4);
-    let first = i.saturating_sub(1).min(s.len() - count);
-    let nodes = first..first + count;
-    let difference = |j: usize| {
-        let others = nodes.clone().filter(|&k| k != j);
-        let weight: f64 = others.map(|k| (x - s[k]) / (s[j] - s[k])).product();
-        (strains[j] - strains[i]) * weight
-    };
-    strains[i] + nodes.clone().map(difference).sum::<Strain>()
+    match s.len() {
+        0 | 1 => strains[i],
+        2 => through::<2>(s, strains, i, x),
+        3 => through::<3>(s, strains, i, x),
+        _ => through::<4>(s, strains, i, x),
+    }
+}
+
+/// The same of so many nodes.
+fn through<const N: usize>(s: &[f64], strains: &[Strain], i: usize, x: f64) -> Strain {
+    let first = i.saturating_sub(1).min(s.len() - N);
+    let nodes: [f64; N] = std::array::from_fn(|j| s[first + j]);
+    let mut change = Strain::zeros();
+    for j in 0..N {
+        let mut weight = 1.0;
+        for k in (0..N).filter(|&k| k != j) {
+            weight *= (x - nodes[k]) / (nodes[j] - nodes[k]);
+        }
+        change += (strains[first + j] - strains[i]) * weight;
+    }
+    strains[i] + change
 }

@@ -44,11 +44,11 @@ test: develop
 	cargo test --release
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest --numprocesses auto
 
-# All Rust steps here share one set of checked dependencies, that with the python feature.
+# All Rust steps here share one set of checked dependencies, that with the python feature, and procedural macros with the extension.
 lint: develop
 	cargo fmt --check
-	cargo clippy --all-targets --features python -- -D warnings
-	RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --features python
+	cargo clippy --release --all-targets --features python -- -D warnings
+	RUSTDOCFLAGS='-D warnings' cargo doc --release --no-deps --features python
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy

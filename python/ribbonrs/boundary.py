@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 
 import numpy as np
@@ -32,7 +33,13 @@ LARGEST_STRAIN = 0.1
 """Axial strain beyond that of growth that the theory is good for."""
 
 SAMPLES = 201
-"""Points at which a guess is handed to the core, besides its own breaks."""
+"""Points, at least, at which a guess is handed to the core, besides its own breaks."""
+
+TURN = 0.5
+"""Angle, in radians, by which a guess turns from one of them to the next, at most."""
+
+MOST_SAMPLES = 100_000
+"""Points that are too many: a mesh for what turns so often is refused."""
 
 TOLD = 5
 """Kinks that a warning names."""
@@ -119,7 +126,7 @@ def _core_guess(scene: Scene, guess: State | ArrayLike) -> _core._Guess:
     length = scene.ribbon.length_ratio
     if isinstance(guess, State):
         reach = guess.scene.ribbon.length_ratio
-        S = np.linspace(0.0, reach, SAMPLES)
+        S = np.linspace(0.0, reach, _samples(guess.strains, reach))
         if isinstance(guess.course, Held):
             S = np.union1d(S, guess.course.breaks)
         jumps = np.array([event.S for event in guess.report.events if event.kind == "jump"])
@@ -131,7 +138,9 @@ def _core_guess(scene: Scene, guess: State | ArrayLike) -> _core._Guess:
         S = scaled * S
     else:
         strains = _strains(guess)
-        S = np.linspace(0.0, length, len(strains))
+        given = np.linspace(0.0, length, len(strains))
+        S = np.linspace(0.0, length, max(len(strains), _samples(strains, length)))
+        strains = np.column_stack([np.interp(S, given, column) for column in strains.T])
         strains = _unstretched(scene, strains, S)
         poses = integrate_frame(S, strains, *pose(scene.start))
         # The solver finds the forces that fit strains best.
@@ -141,12 +150,18 @@ def _core_guess(scene: Scene, guess: State | ArrayLike) -> _core._Guess:
     return S, strains, *poses, force, moment
 
 
+def _samples(strains: Array, length: float) -> int:
+    """How many sections of a guess tell by which way round each turns to the next."""
+    largest = float(np.linalg.norm(strains[:, 1:], axis=1).max())
+    return max(SAMPLES, math.ceil(min(largest * length / TURN, MOST_SAMPLES)) + 1)
+
+
 def _strains(guess: ArrayLike) -> Array:
     """Strains (n, 4) at equally spaced nodes; one row is the same everywhere."""
     expected = "a State, eps, K1, K2, K3, or an array (n, 4) of them at equally spaced S, n >= 2"
     strains = real_array("guess", guess, expected)
     if strains.shape == (4,):
-        return np.tile(strains, (SAMPLES, 1))
+        return np.tile(strains, (2, 1))
     if strains.ndim != 2 or strains.shape[0] < 2 or strains.shape[1] != 4:
         raise InputError("guess.shape", strains.shape, expected)
     return strains

@@ -178,9 +178,7 @@ class Branch:
                 if not self._repeated(i):
                     yield self.state(i)
             elif i + 1 < self.parameter.size and (here - value) * (self.parameter[i + 1] - value) < 0.0:
-                ends = here - value, float(self.parameter[i + 1]) - value
-                fraction = root(partial(self._beyond, value, i), ends)
-                yield self.maker.state(value, *self.source.between(i, fraction)[1:])
+                yield self.maker.state(value, *self.source.at_value(i, value)[1:])
 
     def _repeated(self, i: int) -> bool:
         """Whether the same state is also a point of another branch, or the other end of this one."""
@@ -188,10 +186,6 @@ class Branch:
         if i == 0:
             return self.origin is not None or began in ("closed", "joined")
         return i == self.parameter.size - 1 and ended == "joined"
-
-    def _beyond(self, value: float, i: int, fraction: float) -> float:
-        """How far the parameter is beyond a value between points i and i + 1."""
-        return self.source.between(i, fraction)[0] - value
 
 
 @dataclass(frozen=True, eq=False)

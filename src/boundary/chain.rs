@@ -20,7 +20,8 @@
 
 use nalgebra::DMatrix;
 
-use super::dense::{Determinant, Factors, backward, determinant, dot, eliminate, forward, least_of, padded};
+use super::dense::{Determinant, backward, determinant, dot, eliminate, forward, least_of, padded};
+use super::panel::{Panel, VANISHING_AT_SOLUTION};
 
 /// Singular values below this part of the next are those of gliding and rolling.
 const GLIDING: f64 = 1e-2;
@@ -43,12 +44,12 @@ pub struct Chain {
     sizes: Vec<f64>,
 }
 
-/// The conditions at the end: the last panel, by rows, and its factors.
+/// The conditions at the end: the last panel, by rows, and its factors once they are asked for.
 #[derive(Clone, Debug, Default)]
 struct Last {
     size: usize,
     panel: Vec<f64>,
-    factors: Factors,
+    factors: Option<Panel>,
 }
 
 /// Right-hand sides with all but the last panel eliminated.
@@ -195,7 +196,18 @@ impl Chain {
                 panel.extend(border.phase.iter().map(|_| 0.0));
             }
         }
-        self.last = Last { size, factors: Factors::of(&panel, size), panel };
+        self.last = Last { size, panel, factors: None };
+    }
+
+    /// Factorises the last panel, for [`Chain::solve_last`].
+    pub fn close(&mut self) {
+        self.last.factors = Some(Panel::new(&self.last(), &self.sizes(), None, VANISHING_AT_SOLUTION));
+    }
+
+    /// Changes of the last panel that change nothing; none before it is factorised.
+    #[must_use]
+    pub fn kernel(&self) -> &[Vec<f64>] {
+        self.last.factors.as_ref().map_or(&[], Panel::kernel)
     }
 
     /// The border that small singular values of the last panel ask for; `None` if none is far below the others.
@@ -222,16 +234,16 @@ impl Chain {
         Some(Border { slack: open.iter().map(slack).collect(), phase: open.iter().map(phase).collect() })
     }
 
-    /// The least relative pivot met: of the order of rounding, zero or NaN where the chain is singular.
-    #[must_use]
-    pub fn pivot(&self) -> f64 {
-        least_of(self.pivot, self.last.factors.pivot)
-    }
-
-    /// The same without the last panel.
+    /// The least relative pivot met: of the order of rounding, zero or NaN where the chain is singular before its last panel.
     #[must_use]
     pub fn inner_pivot(&self) -> f64 {
         self.pivot
+    }
+
+    /// The same with the last panel, once it is factorised.
+    #[must_use]
+    pub fn pivot(&self) -> f64 {
+        least_of(self.pivot, self.last.factors.as_ref().map_or(0.0, Panel::pivot))
     }
 
     /// Determinant of all but the last panel.
@@ -272,10 +284,13 @@ impl Chain {
         norm * inverse
     }
 
-    /// Solves the last panel.
+    /// Solves the last panel, once it is factorised: by what is not a number before.
     #[must_use]
     pub fn solve_last(&self, rhs: &[f64]) -> Vec<f64> {
-        self.last.factors.solve(rhs.to_vec())
+        match &self.last.factors {
+            Some(factors) => factors.solve(rhs.to_vec()),
+            None => vec![f64::NAN; rhs.len()],
+        }
     }
 
     /// Eliminates right-hand sides at the start (6), of the elements (`n` each) and at the end, but for the last panel.
@@ -382,6 +397,7 @@ mod tests {
             matrix.view_mut((size + 6 - n - m, count * n), (n + m - 6, n)).copy_from(&end.columns(0, n));
             matrix.view_mut((size + 6 - n - m, size - m), (n + m - 6, m)).copy_from(&end.columns(n, m));
             chain.finish(&slice(&end), None);
+            chain.close();
             let rhs = numbers(size, 99);
             let split = 6 + count * n;
             let Reduced { kept, last } = chain.reduce(&rhs[..6], &rhs[6..split], &rhs[split..]);

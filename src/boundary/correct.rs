@@ -16,7 +16,7 @@ use super::chain::Reduced;
 use super::dense::Determinant;
 use super::eliminated::{Change, Eliminated, by_component, by_stage};
 use super::iterate::Correction;
-use super::panel::{Panel, SVD_STEPS};
+use super::panel::{Panel, SVD_STEPS, VANISHING};
 use super::system::{Residual, System};
 use super::transfer::joined;
 use crate::section::Strain;
@@ -63,6 +63,28 @@ impl System {
         let rhs = self.reduced(residual);
         let last = self.chain.solve_last(&rhs.nodes.last);
         self.expanded(rhs, &last)
+    }
+
+    /// Unit motions that change nothing, at right angles to one another: a rod that is the same in all directions may turn about the line of
+    /// its ends and loads.
+    #[must_use]
+    pub fn motions(&self) -> Vec<Correction> {
+        let none = || Rhs {
+            strains: vec![Strain::zeros(); self.mesh.stages()],
+            nodes: Reduced {
+                kept: vec![0.0; self.layout.states().len() * self.mesh.elements()],
+                last: Vec::new(),
+            },
+        };
+        let mut motions: Vec<Correction> = Vec::new();
+        for last in self.chain.kernel() {
+            let mut motion = self.expanded(none(), last);
+            for other in &motions {
+                motion = motion.plus(-motion.dot(other, &self.mesh), other);
+            }
+            motions.push(motion.scaled(1.0 / motion.dot(&motion, &self.mesh).sqrt()));
+        }
+        motions
     }
 
     /// The correction that gives each element another end: what its position, rotation and moment about the origin
@@ -172,7 +194,7 @@ impl System {
             }
             None => matrix[(size, size)] = 1.0,
         }
-        Bordered(Kind::Chain { by_parameter: rhs, panel: Panel::new(&matrix, &sizes, nullity) })
+        Bordered(Kind::Chain { by_parameter: rhs, panel: Panel::new(&matrix, &sizes, nullity, VANISHING) })
     }
 
     /// The last panel with the column of the parameter, and a row of zeros.
@@ -213,7 +235,7 @@ impl System {
 
     /// Motions that change nothing, all along a branch.
     #[must_use]
-    pub fn motions(&self, bordered: &Bordered) -> Vec<Line> {
+    pub fn motions_along(&self, bordered: &Bordered) -> Vec<Line> {
         let Kind::Chain { by_parameter, panel } = &bordered.0 else { return Vec::new() };
         let line = |y: &Vec<f64>| self.line(self.nothing(by_parameter), by_parameter, y);
         panel.kernel().iter().map(line).collect()

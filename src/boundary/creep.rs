@@ -253,9 +253,8 @@ fn refused(system: &System, from: &Iterate, ended: &Ended, targets: &Targets) ->
     let stretch = |(a, b): (&Strain, &Strain)| (b[0] - a[0]).abs();
     let stretched = from.strains.iter().zip(&ended.x.strains).map(stretch).fold(0.0, f64::max);
     let far = largest_turn(from, &ended.x) > LARGEST_STEP_TURN || stretched > LARGEST_STRETCH;
-    let minimum = || {
-        system.sections.index == 0 && system.index_here(&ended.x, targets.load, &[]).is_none_or(|i| i == 0)
-    };
+    let minimum =
+        || system.sections.index == 0 && system.index_here(&ended.x, targets.load).is_none_or(|i| i == 0);
     (far || !minimum()).then_some(Failed::Jumped)
 }
 
@@ -277,7 +276,7 @@ fn resolvable(system: &System, x: &Iterate, targets: &Targets) -> Result<Estimat
 /// stands for too long a part is kept from what a section does.
 fn divided(system: &System, x: &Iterate, targets: &Targets) -> Result<Option<(Mesh, Iterate)>, InvalidInput> {
     let mesh = &system.mesh;
-    if system.sections.index == 0 || system.index_here(x, targets.load, &[]).is_some_and(|index| index > 0) {
+    if system.sections.index == 0 || system.index_here(x, targets.load).is_some_and(|index| index > 0) {
         return Ok(None);
     }
     let degree = mesh.gauss.degree;

@@ -5,6 +5,9 @@
 
 use std::sync::Arc;
 
+use nalgebra::Quaternion;
+
+use super::ends::{At, End};
 use super::fallen::{BOWS, DISTURBANCES, disturbed};
 use super::iterate::Iterate;
 use super::known::Known;
@@ -37,10 +40,18 @@ pub fn find(problem: &Arc<Problem>, settings: &Settings, most: usize) -> Result<
     let nodes = problem.first_nodes(ELEMENTS, 0.0);
     let mesh = Mesh::new(problem, nodes, settings.degree)?;
     let goal = goal(problem);
-    let mut search =
-        Search { system: System::new(mesh.clone())?, goal, known: Vec::new(), found: Vec::new() };
+    let mut search = Search {
+        system: System::new(mesh.clone())?,
+        goal,
+        known: Vec::new(),
+        found: Vec::new(),
+        turned: None,
+    };
     let first = solve(problem, settings, None)?;
     if first.report.status.is_solved() {
+        if problem.ends.iter().all(|end| end.hold.holds_rotation()) {
+            search.turned = Some(turned_over(&first.x, &search.goal.ends));
+        }
         search.keep(settings, first)?;
     }
     let mut bases: Vec<Iterate> = Vec::new();
@@ -85,15 +96,21 @@ struct Search {
     known: Vec<Iterate>,
     /// Those that are told apart.
     found: Vec<Solved>,
+    /// Whether the ribbon turns the quaternion of its start into minus that of its end, if both are held: with a turn more or less it is the
+    /// other way round.
+    turned: Option<bool>,
 }
 
 impl Search {
-    /// Keeps an equilibrium if it is no mirror image of another.
+    /// Keeps an equilibrium if it is no mirror image of another, and has the turns that are asked for.
     fn keep(&mut self, settings: &Settings, solved: Solved) -> Result<(), InvalidInput> {
         let problem = &self.system.mesh.problem;
         let mesh = Mesh::new(problem, solved.nodes.clone(), settings.degree)?;
         if self.known.is_empty() {
             self.known.push(super::adapt::transferred(&solved.x, &mesh, &self.system.mesh)?);
+        }
+        if self.turned.is_some_and(|turned| turned != turned_over(&solved.x, &self.goal.ends)) {
+            return Ok(());
         }
         let numbers = mean_squares(&mesh, &solved.x);
         for other in &self.found {
@@ -137,6 +154,15 @@ impl Search {
         }
         None
     }
+}
+
+/// Whether the quaternion of the first end becomes minus that of the other along the ribbon: no element turns by more than half a turn.
+fn turned_over(x: &Iterate, ends: &[End; 2]) -> bool {
+    let opposite = |a: &At, b: &Quaternion<f64>| a.rotation.dot(b) < 0.0;
+    let between = x.nodes.windows(2).filter(|pair| opposite(&pair[0], &pair[1].rotation)).count();
+    let at_ends = [(&x.nodes[0], &ends[0]), (&x.nodes[x.nodes.len() - 1], &ends[1])];
+    let signs = at_ends.iter().filter(|(at, end)| opposite(at, &end.rotation)).count();
+    (between + signs) % 2 == 1
 }
 
 /// Axial strain beyond which a solution of the equations is no ribbon.

@@ -78,6 +78,5 @@ pub use report::{Report, Status};
 pub use sections::Sections;
 pub use solution::{Energies, SectionState, Solution, Wrench, energies};
 pub use solve::{DEGREE, Settings, Solved, goal};
-pub use stability::Spring;
 pub use step::Stepper;
 pub use system::{Failure, Residual, System, Targets};

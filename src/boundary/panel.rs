@@ -1,4 +1,4 @@
-//! The last panel with the column of a parameter, factorised; also where it is singular.
+//! The last panel, also with the column of a parameter, factorised; also where it is singular.
 //!
 //! A rod that is the same in all directions may turn about the line of its loads and ends, and a closed one along itself: then a singular
 //! value vanishes at every point of a branch, and of all solutions that with the least change is taken.
@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use super::dense::{Determinant, Factors};
 
 /// The factors.
+#[derive(Clone, Debug)]
 pub enum Panel {
     /// Of a regular matrix.
     Regular(Factors),
@@ -24,8 +25,10 @@ pub enum Panel {
 
 /// A solution so much larger than its right-hand side tells of a small singular value.
 const LARGE: f64 = 1e4;
-/// Singular values below this part of the next vanish.
-const VANISHING: f64 = 1e-5;
+/// Singular values below this part of the next vanish: at points of a branch, and of what is known no better, and at a solution, which is
+/// as singular where it buckles.
+pub const VANISHING: f64 = 1e-5;
+pub const VANISHING_AT_SOLUTION: f64 = 1e-9;
 /// Steps of a singular value decomposition that are too many.
 pub const SVD_STEPS: usize = 1000;
 /// The most singular values that may.
@@ -33,9 +36,9 @@ const MOST: usize = 3;
 
 impl Panel {
     /// Factorises a matrix whose columns are of these sizes if nothing cancels in them. So many of its singular values vanish, or, if
-    /// that is not known, as many as do.
+    /// that is not known, as many as are below this part of the next.
     #[must_use]
-    pub fn new(matrix: &DMatrix<f64>, sizes: &[f64], nullity: Option<usize>) -> Self {
+    pub fn new(matrix: &DMatrix<f64>, sizes: &[f64], nullity: Option<usize>, vanishing: f64) -> Self {
         let size = matrix.nrows();
         // Nothing is divided by a size that is none.
         let own = matrix.column_iter().map(|column| column.amax());
@@ -49,10 +52,15 @@ impl Panel {
         {
             return regular;
         }
-        Self::singular(matrix, &scale, nullity).unwrap_or(regular)
+        Self::singular(matrix, &scale, nullity, vanishing).unwrap_or(regular)
     }
 
-    fn singular(matrix: &DMatrix<f64>, scale: &DVector<f64>, nullity: Option<usize>) -> Option<Self> {
+    fn singular(
+        matrix: &DMatrix<f64>,
+        scale: &DVector<f64>,
+        nullity: Option<usize>,
+        vanishing: f64,
+    ) -> Option<Self> {
         let mut scaled = matrix.clone();
         for (mut column, size) in scaled.column_iter_mut().zip(scale.iter()) {
             column /= *size;
@@ -65,9 +73,8 @@ impl Panel {
         let mut order: Vec<usize> = (0..scale.len()).collect();
         order.sort_by(|&i, &k| svd.singular_values[i].total_cmp(&svd.singular_values[k]));
         let value = |rank: usize| svd.singular_values[order[rank]];
-        let vanishing =
-            || (1..=MOST.min(scale.len() - 1)).rev().find(|&k| value(k - 1) < VANISHING * value(k));
-        let nullity = nullity.or_else(vanishing)?;
+        let count = || (1..=MOST.min(scale.len() - 1)).rev().find(|&k| value(k - 1) < vanishing * value(k));
+        let nullity = nullity.or_else(count)?;
         let mut inverse = DMatrix::zeros(scale.len(), scale.len());
         let mut log = scale.iter().map(|size| size.ln()).sum::<f64>();
         for &i in &order[nullity..] {
@@ -101,6 +108,15 @@ impl Panel {
         }
     }
 
+    /// The least relative pivot; 1 where what is singular was set aside.
+    #[must_use]
+    pub fn pivot(&self) -> f64 {
+        match self {
+            Self::Regular(factors) => factors.pivot,
+            Self::Singular { .. } => 1.0,
+        }
+    }
+
     /// The determinant, without those singular values; its sign is then not known, 0.
     #[must_use]
     pub fn determinant(&self) -> Determinant {
@@ -118,7 +134,7 @@ mod tests {
     #[test]
     fn of_a_singular_matrix_the_least_solution() {
         let matrix = DMatrix::from_row_slice(3, 3, &[2.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1.0, 1.0 + 1e-15]);
-        let panel = Panel::new(&matrix, &vec![1.0; matrix.ncols()], None);
+        let panel = Panel::new(&matrix, &vec![1.0; matrix.ncols()], None, VANISHING);
         assert_eq!(panel.kernel().len(), 1);
         let x = panel.solve(vec![4.0, 3.0, 3.0]);
         for (x, exact) in x.iter().zip([2.0, 1.5, 1.5]) {
@@ -131,7 +147,7 @@ mod tests {
     #[test]
     fn of_a_regular_matrix_its_solution() {
         let matrix = DMatrix::from_row_slice(2, 2, &[0.0, 2.0, 3.0, 1e-9]);
-        let panel = Panel::new(&matrix, &vec![1.0; matrix.ncols()], None);
+        let panel = Panel::new(&matrix, &vec![1.0; matrix.ncols()], None, VANISHING);
         assert_eq!((panel.kernel().len(), panel.determinant().sign), (0, -1.0));
         assert_eq!(panel.solve(vec![2.0, 3.0 + 1e-9]), vec![1.0, 1.0]);
     }

@@ -259,7 +259,7 @@ impl Solution {
         let mut solution = Self::on(&system.mesh, x, report)?;
         if solution.section_index == 0 {
             solution.index = if regular {
-                system.index_here(&solution.x, goal.load, &[])
+                system.index_here(&solution.x, goal.load)
             } else {
                 system.index(&solution.x, &goal)
             };

@@ -222,7 +222,8 @@ pub fn index(
         (false, true) => ROUNDING,
         (false, false) => 0.0,
     };
-    let last = last - SMatrix::identity() * (zero * behind.amax());
+    let shift = zero * behind.amax();
+    (0..6).for_each(|i| last[(i, i)] -= shift);
     index += Symmetric::new(&last)?.negative(0.0) as isize - 6;
     usize::try_from(index).ok()
 }

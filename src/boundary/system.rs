@@ -11,7 +11,7 @@ use super::chain::{Border, Chain};
 use super::element::{Entry, Exit, Span, Stages};
 use super::eliminated::Eliminated;
 use super::ends::{Condition, End, Units, conditions, half_angle};
-use super::iterate::{Iterate, Layout, settle};
+use super::iterate::{Correction, Iterate, Layout, settle};
 use super::mesh::Mesh;
 use super::problem::Problem;
 use super::sections::Sections;
@@ -218,8 +218,11 @@ impl System {
     /// A singular Jacobian, a residual that is not finite, a section that is refused.
     pub fn linearise(&mut self, x: &Iterate, targets: &Targets) -> Result<(), Failure> {
         self.linearise_open(x, targets)?;
-        if self.sparse.is_none() && !(self.chain.pivot() > SINGULAR) {
-            return Err(Failure::Singular("in the conditions that join the elements".to_owned()));
+        if self.sparse.is_none() {
+            self.chain.close();
+            if !(self.chain.pivot() > SINGULAR) {
+                return Err(Failure::Singular("in the conditions that join the elements".to_owned()));
+            }
         }
         Ok(())
     }
@@ -474,21 +477,32 @@ impl System {
     /// potential; `None` where it cannot be told.
     pub fn index(&mut self, x: &Iterate, targets: &Targets) -> Option<usize> {
         self.linearise_open(x, targets).ok()?;
-        self.index_here(x, targets.load, &[])
+        if self.sparse.is_none() {
+            self.chain.close();
+        }
+        self.index_here(x, targets.load)
     }
 
     /// The same, where the equations were just linearised.
     #[must_use]
-    pub fn index_here(&self, x: &Iterate, load: f64, springs: &[Spring]) -> Option<usize> {
+    pub fn index_here(&self, x: &Iterate, load: f64) -> Option<usize> {
+        self.index_without(x, load, &self.motions())
+    }
+
+    /// The same, where it is known which motions change nothing, at right angles to one another.
+    #[must_use]
+    pub fn index_without(&self, x: &Iterate, load: f64, motions: &[Correction]) -> Option<usize> {
         if self.sparse.is_some() || !self.mesh.problem.is_conservative() {
             return None;
         }
+        let springs: Vec<Spring> =
+            motions.iter().filter_map(|motion| Spring::against(&motion.nodes)).collect();
         let place = |(i, at): (usize, &super::ends::At)| {
             let jump = self.mesh.points[i].map_or(Vector::zeros(), |(force, _)| load * force);
             Place { position: at.position, force: [at.force + jump, at.force], moment: at.moment() }
         };
         let places: Vec<Place> = x.nodes.iter().enumerate().map(place).collect();
-        index(&self.mesh.problem, &self.transfers, &places, &self.units, springs)
+        index(&self.mesh.problem, &self.transfers, &places, &self.units, &springs)
     }
 
     /// Condition number of what is left when all nodes but the last are eliminated.

@@ -32,6 +32,11 @@ pub struct Advanced<E: Equations> {
 }
 
 impl<E: Equations> Advanced<E> {
+    /// The same step, no farther than to this point, where the range of the parameter ends.
+    pub fn ending(self, point: PointOf<E>) -> Self {
+        Self { point, at_end: true, ..self }
+    }
+
     /// The length of the next step after one of this length, by the error of the prediction.
     pub fn next_step(&self, step: f64, limits: &Limits) -> f64 {
         let factor = (PREDICTION / self.error.max(1e-12)).powf(1.0 / (self.order as f64 + 1.0));

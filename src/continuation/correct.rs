@@ -123,7 +123,7 @@ pub fn corrected<E: Equations>(
         before = size;
         // What a correction with new factors leaves is of the second order in it.
         if size <= tolerance.min(aside) {
-            let point = reached(equations, (x, t), linearised, &line, (across, sense))?;
+            let point = reached(equations, (x, t), linearised, &line, sense)?;
             return Ok(Corrected { point, first, aside: size });
         }
         if size > SMALL {
@@ -145,7 +145,7 @@ pub fn corrected<E: Equations>(
             let left = if rate < FAST { rate * again } else { again };
             let enough = rounding && size < negligible || close && (rounding || left <= tolerance);
             if enough {
-                let point = reached(equations, (x, t), linearised, &line, (across, sense))?;
+                let point = reached(equations, (x, t), linearised, &line, sense)?;
                 return Ok(Corrected { point, first, aside: size });
             }
             if rate.is_nan() || rate >= FAST {
@@ -162,7 +162,7 @@ fn reached<E: Equations>(
     (x, t): (E::State, f64),
     linearised: (E::State, f64),
     line: &DirectionOf<E>,
-    (across, sense): (Option<&DirectionOf<E>>, Option<&DirectionOf<E>>),
+    sense: Option<&DirectionOf<E>>,
 ) -> Result<PointOf<E>, Failed> {
     let x = equations.settled(x, t)?;
     let place = equations.settled(linearised.0, linearised.1)?;
@@ -170,10 +170,9 @@ fn reached<E: Equations>(
     let along = unit(equations, line);
     let backward = sense.is_some_and(|sense| dot(equations, sense, &along) < 0.0);
     let along = scaled(equations, &along, if backward { -1.0 } else { 1.0 });
-    // The determinant is that with the plane as its last row: let it face along the branch.
-    let facing = across.map_or(along.t, |across| dot(equations, across, &along));
+    // The line has a positive part across the last row of the determinant: let that face along the branch.
     if let Some(determinant) = &mut stability.determinant {
-        determinant.sign *= facing.signum();
+        determinant.sign *= if backward { -1.0 } else { 1.0 };
     }
     Ok(Point { x, t, s: 0.0, along, stability })
 }

@@ -2,8 +2,8 @@
 
 use super::between::at as at_length;
 use super::branch::{BranchOf, Ended, Limits, Special, SpecialKind, SpecialOf};
-use super::correct::{PointOf, reversed};
-use super::equations::Equations;
+use super::correct::{PointOf, difference, reversed};
+use super::equations::{Equations, Stability, plus, scaled, unit};
 use super::locate::{Found, special_points, values_between};
 use super::place::at_value;
 use super::switch::{FROM_THE_SIDE, Leaving, alike, leaving, leaving_with_section};
@@ -92,7 +92,7 @@ fn switch<E: Equations>(
             if limits.interrupted.is_some_and(|asks| asks()) || passed(equations, branches, &point) {
                 continue;
             }
-            let (point, passed_over) = first_step(equations, &at, point, limits);
+            let (beginning, point, passed_over) = first_step(equations, &at, point, limits);
             let mut branch = walked(equations, point, limits, met);
             // It begins at the branch point itself.
             let before = passed_over.len() + 1;
@@ -105,7 +105,7 @@ fn switch<E: Equations>(
             });
             branch.special.splice(0..0, special);
             branch.points.splice(0..0, passed_over.into_iter().map(|found| found.point));
-            branch.points.insert(0, PointOf::<E> { s: 0.0, ..at.clone() });
+            branch.points.insert(0, beginning);
             branch.ended[0] = Ended::Switched;
             (branch.origin, branch.mirrored) = (Some((number, i)), mirrored);
             mark_values::<E>(&mut branch, limits);
@@ -115,15 +115,15 @@ fn switch<E: Equations>(
     }
 }
 
-/// The first point of a branch that leaves a branch point, and the special points between: nearer, where they could not be told apart.
+/// The branch point as a point of a branch that leaves it, the first point of that, and the special points between: nearer, where they could
+/// not be told apart.
 fn first_step<E: Equations>(
     equations: &mut E,
     at: &PointOf<E>,
     mut first: PointOf<E>,
     limits: &Limits,
-) -> (PointOf<E>, Vec<Found<E>>) {
-    // With the direction and the free motions of the new branch.
-    let from = PointOf::<E> { x: at.x.clone(), t: at.t, s: 0.0, ..first.clone() };
+) -> (PointOf<E>, PointOf<E>, Vec<Found<E>>) {
+    let from = leaving_along(equations, at, &first);
     // At the branch point itself the index is that of neither side.
     while let Some(next) = at_length(equations, &from, &first, NEXT * first.s) {
         let passed = values_between(equations, &[&from, &next], limits).and_then(|mut found| {
@@ -131,7 +131,7 @@ fn first_step<E: Equations>(
             Ok(found)
         });
         if let Ok(found) = passed {
-            return (first, found);
+            return (from, first, found);
         }
         let Some(nearer) = at_length(equations, &from, &first, 0.5 * first.s) else { break };
         if nearer.s < NEAREST {
@@ -139,7 +139,27 @@ fn first_step<E: Equations>(
         }
         first = nearer;
     }
-    (first, Vec::new())
+    (from, first, Vec::new())
+}
+
+/// A branch point with the free motions of a branch that leaves it, and its tangent: the chord to the first point is the mean of that and the
+/// one there.
+fn leaving_along<E: Equations>(equations: &mut E, at: &PointOf<E>, first: &PointOf<E>) -> PointOf<E> {
+    let along = if equations.on_one_mesh(&at.x, &first.x) {
+        let change = difference(equations, at, first);
+        let chord = unit(equations, &change);
+        let along = plus(equations, &scaled(equations, &chord, 2.0), -1.0, &first.along);
+        unit(equations, &along)
+    } else {
+        first.along.clone()
+    };
+    let free_motions = first.stability.free_motions;
+    PointOf::<E> {
+        along,
+        s: 0.0,
+        stability: Stability { free_motions, ..at.stability.clone() },
+        ..at.clone()
+    }
 }
 
 /// A first step that is not shortened.

@@ -107,7 +107,7 @@ pub trait Equations {
     /// A solution of the linearised equations for the residual last evaluated.
     fn particular(&mut self) -> Direction<Self::Change>;
 
-    /// The line of such solutions.
+    /// The line of such solutions, toward where the direction that they lie across points.
     fn line(&mut self) -> Direction<Self::Change>;
 
     /// Directions in which the linearised equations are nearly singular, the most first.

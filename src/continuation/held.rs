@@ -10,8 +10,8 @@ use super::held_state::HeldState;
 use super::locus::Plane;
 use crate::InvalidInput;
 use crate::boundary::{
-    Bordered, Correction, Defects, Failure, Family, Layout, Line, Problem, Spring, System, Units, defects,
-    goal, transferred,
+    Bordered, Correction, Defects, Failure, Family, Layout, Line, Problem, System, Units, defects, goal,
+    transferred,
 };
 
 /// How long the parts of the work took, but for the rest.
@@ -235,7 +235,7 @@ impl Equations for Held {
         let begun = Instant::now();
         let bordered = system.bordered(&slope, across.as_ref(), nullity);
         let factorising = begun.elapsed();
-        let motions = system.motions(&bordered);
+        let motions = system.motions_along(&bordered);
         self.work.factorisation += factorising;
         self.bordered = Some(bordered);
         self.linearised = Some((x.clone(), t));
@@ -269,13 +269,12 @@ impl Equations for Held {
         let Some(system) = &self.system else { return Stability::default() };
         let sections = system.sections.with_nodes(&system.mesh, &x.x);
         let free = self.free.len();
-        let springs: Vec<Spring> =
-            self.free.iter().filter_map(|motion| Spring::against(&motion.x.nodes)).collect();
+        let motions: Vec<Correction> = self.free.iter().map(|motion| motion.x.clone()).collect();
         let index = if sections.index > 0 {
             None
         } else {
             let begun = Instant::now();
-            let index = system.index_here(&x.x, 1.0, &springs);
+            let index = system.index_without(&x.x, 1.0, &motions);
             self.work.index += begun.elapsed();
             index
         };

@@ -111,14 +111,19 @@ fn walked<E: Plane>(
             step *= 0.5;
             continue;
         }
+        if !(0.0..=1.0).contains(&point.t) {
+            return match to_end(equations, &here, held, place, kind, limits) {
+                Some(last) => {
+                    found.push(last);
+                    (found, Ended::Span)
+                }
+                None => (found, Ended::Failed(Failed::Jumped)),
+            };
+        }
         slope = (point.t - here.place[1 - held]) / moved;
         step = (step * (ERROR / error.max(1e-6)).sqrt().clamp(0.5, 2.0)).min(LONGEST);
         here = Here { point, place, off, multiplicity: Some(multiplicity) };
-        let outside = !(0.0..=1.0).contains(&here.place[1 - held]);
         found.push(Here { point: here.point.clone(), place, off: None, multiplicity: None });
-        if outside {
-            return (found, Ended::Span);
-        }
         if slope.abs() > STEEP
             && let Some(along) = exchanged(equations, &here, held, kind)
         {
@@ -131,6 +136,39 @@ fn walked<E: Plane>(
     }
     (found, Ended::Steps)
 }
+
+/// Where the parameter that is not held comes to the end of its range, between a place and one beyond, by secants.
+fn to_end<E: Plane>(
+    equations: &mut E,
+    here: &Here<E>,
+    held: usize,
+    beyond: [f64; 2],
+    kind: SpecialKind,
+    limits: &Limits,
+) -> Option<Here<E>> {
+    let end = beyond[1 - held].clamp(0.0, 1.0);
+    // The parameter that is held, and how far the other is beyond.
+    let of = |place: [f64; 2]| (place[held], place[1 - held] - end);
+    let (mut before, mut last) = (of(here.place), of(beyond));
+    let slope = (last.1 - before.1) / (last.0 - before.0);
+    for _ in 0..MOST_TO_END {
+        let next = last.0 - last.1 * (last.0 - before.0) / (last.1 - before.1);
+        equations.hold(next, held == 0);
+        let shift = slope * (next - here.place[held]);
+        let (point, off, multiplicity) = near(equations, here, shift, kind, limits)?;
+        (before, last) = (last, (next, point.t - end));
+        if last.1.abs() < ENDED {
+            let mut place = [end; 2];
+            place[held] = next;
+            return Some(Here { point, place, off, multiplicity: Some(multiplicity) });
+        }
+    }
+    None
+}
+
+/// Special points of that search that are too many, and the distance from the end that ends it.
+const MOST_TO_END: usize = 10;
+const ENDED: f64 = 1e-11;
 
 /// The direction of what branches off at a branch point.
 fn direction<E: Plane>(equations: &mut E, point: &PointOf<E>, kind: SpecialKind) -> Option<DirectionOf<E>> {

@@ -40,3 +40,4 @@ pub use held::{Held, Work};
 pub use held_state::{HeldState, begin_with};
 pub use locus::{Locus, Plane, locus};
 pub use natural::{Natural, NaturalFamily};
+pub use place::at_value;

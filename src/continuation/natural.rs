@@ -190,6 +190,7 @@ impl Equations for Natural {
     fn line(&mut self) -> Direction<[f64; 2]> {
         let [a, b] = self.rows.map(|row| row / row.norm().max(f64::MIN_POSITIVE));
         let line = a.cross(&b);
+        let line = line * 1.0_f64.copysign(line.dot(&self.across));
         Direction { x: [line.x, line.y], t: line.z }
     }
 

@@ -5,6 +5,7 @@ use super::branch::{BranchOf, Ended, Limits, Special, SpecialKind, is_closed};
 use super::correct::{EXACTLY, Guess, Point, PointOf, corrected};
 use super::equations::{Direction, Equations, Failed};
 use super::locate::{Found, special_points, unlike};
+use super::place::at_value;
 use super::switch::{Off, across, stepped};
 
 /// The first step.
@@ -185,7 +186,7 @@ impl<'a, E: Equations> Walk<'a, E> {
     /// The next point, and what lies before it, or a finer mesh to look for that on.
     fn attempt(&mut self, equations: &mut E) -> Result<Attempt<E>, Failed> {
         equations.expect_motions(Some(self.motions));
-        let next = advanced(equations, self.last(), &self.memory, self.step, self.limits)?;
+        let mut next = advanced(equations, self.last(), &self.memory, self.step, self.limits)?;
         let found = special_points(equations, self.last(), &next.point, self.limits);
         if found.as_ref().map_or(true, |found| are_near(found))
             && let Some(finer) = self.sharper(equations, &next.point)
@@ -194,6 +195,15 @@ impl<'a, E: Equations> Walk<'a, E> {
             return Ok(Attempt::Coarse(finer));
         }
         let mut found = found?;
+        if let Some(beyond) = found.iter().position(|found| is_outside(found.point.t)) {
+            // It turns back there: its way led beyond the range of the parameter.
+            let turning = found.swap_remove(beyond).point;
+            found.truncate(beyond);
+            let before = found.last().map_or(self.last(), |found| &found.point);
+            let end = if turning.t > 0.5 { 1.0 } else { 0.0 };
+            let point = at_value(equations, before, &turning, end).filter(|_| before.t != end);
+            next = next.ending(PointOf::<E> { t: end, ..point.ok_or(Failed::Jumped)? });
+        }
         self.sharpened = 0;
         let coarse =
             found.iter_mut().find_map(|found| unresolved(equations, found, self.limits, self.unresolved));
@@ -326,6 +336,14 @@ impl<'a, E: Equations> Walk<'a, E> {
         &self.branch.points[self.branch.points.len() - 1]
     }
 }
+
+/// Whether a parameter is beyond its range, by more than rounding.
+fn is_outside(t: f64) -> bool {
+    !(-BEYOND..=1.0 + BEYOND).contains(&t)
+}
+
+/// What rounding is.
+const BEYOND: f64 = 1e-12;
 
 /// Whether two special points are so near that they may be one, which the error of the mesh divides.
 fn are_near<E: Equations>(found: &[Found<E>]) -> bool {

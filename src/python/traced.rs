@@ -13,7 +13,8 @@ use super::section::SectionLaw;
 use crate::InvalidInput;
 use crate::boundary::{Correction, Family, Solution, energies};
 use crate::continuation::{
-    Branch, Ended, Held, HeldState, Limits, Natural, NaturalFamily, Point, SpecialKind, between, locus,
+    Branch, Ended, Equations, Held, HeldState, Limits, Natural, NaturalFamily, Point, SpecialKind, at_value,
+    between, locus,
 };
 use crate::frame::{Pose, helix};
 use crate::section::Strain;
@@ -197,36 +198,70 @@ impl TracedBranch {
     }
 
     /// The equilibrium at a fraction of the way from a point to the next: its parameter, mean strains, and solution.
-    fn between<'py>(
-        &self,
-        py: Python<'py>,
-        i: usize,
-        fraction: f64,
-    ) -> PyResult<(f64, Bound<'py, PyArray1<f64>>, Option<BoundarySolution>)> {
-        let none = || InvalidInput::new("fraction", fraction, "a place at which there is an equilibrium");
+    fn between<'py>(&self, py: Python<'py>, i: usize, fraction: f64) -> PyResult<Inside<'py>> {
+        self.inside(py, i, Place::Fraction(fraction))
+    }
+
+    /// The equilibrium between a point and the next at a value of the parameter: that, mean strains, and solution.
+    fn at_value<'py>(&self, py: Python<'py>, i: usize, value: f64) -> PyResult<Inside<'py>> {
+        let t = (value - self.span[0]) / (self.span[1] - self.span[0]);
+        self.inside(py, i, Place::Value(t))
+    }
+}
+
+/// Where an equilibrium between two points is.
+#[derive(Clone, Copy)]
+enum Place {
+    /// At this part of the way.
+    Fraction(f64),
+    /// At this parameter.
+    Value(f64),
+}
+
+impl Place {
+    /// The equilibrium there.
+    fn of<E: Equations>(
+        self,
+        equations: &mut E,
+        a: &Point<E::State, E::Change>,
+        b: &Point<E::State, E::Change>,
+    ) -> Result<Point<E::State, E::Change>, InvalidInput> {
+        let (field, place, found) = match self {
+            Self::Fraction(part) => {
+                let found = between(equations, a, b, part * (b.s - a.s));
+                // Next to a special point the point itself.
+                ("fraction", part, found.or_else(|| next_to(part, a, b)))
+            }
+            Self::Value(t) => ("parameter", t, at_value(equations, a, b, t)),
+        };
+        found.ok_or_else(|| InvalidInput::new(field, place, "a place at which there is an equilibrium"))
+    }
+}
+
+/// An equilibrium: its parameter, mean strains, and solution.
+type Inside<'py> = (f64, Bound<'py, PyArray1<f64>>, Option<BoundarySolution>);
+
+impl TracedBranch {
+    /// The equilibrium between a point and the next.
+    fn inside<'py>(&self, py: Python<'py>, i: usize, place: Place) -> PyResult<Inside<'py>> {
         let (row, solution) = py.detach(|| match &self.points {
             Points::Natural(equations, points) => {
                 let [a, b] = pair(points, i).ok_or_else(|| self.no_point(i))?;
                 let mut equations = lock(equations);
-                let found = between(&mut *equations, a, b, fraction * (b.s - a.s));
-                // Next to a special point the point itself.
-                let point = found.or_else(|| next_to(fraction, a, b)).ok_or_else(none)?;
+                let point = place.of(&mut *equations, a, b)?;
                 Ok::<_, InvalidInput>((natural_row(&mut equations, &point, self.span)?, None))
             }
             Points::Held(equations, points) => {
                 let [a, b] = pair(points, i).ok_or_else(|| self.no_point(i))?;
                 let mut equations = lock(equations);
-                let found = between(&mut *equations, a, b, fraction * (b.s - a.s));
-                let point = found.or_else(|| next_to(fraction, a, b)).ok_or_else(none)?;
+                let point = place.of(&mut *equations, a, b)?;
                 let row = held_row(&mut equations, &point, self.span, self.degree)?;
                 Ok((row, Some(solution(&mut equations, &point, self.degree)?)))
             }
         })?;
         Ok((row.parameter, row.strains.as_slice().to_vec().into_pyarray(py), solution))
     }
-}
 
-impl TracedBranch {
     /// A branch of a ribbon that is held, `origin` the number of the special point that it leaves.
     ///
     /// # Errors

@@ -67,6 +67,10 @@ class Live:
         """Return what is between points i and i + 1."""
         return self.branch.between(i, fraction)
 
+    def at_value(self, i: int, value: float) -> Between:
+        """Return what is between points i and i + 1 at a value of the parameter."""
+        return self.branch.at_value(i, value)
+
 
 @dataclass(frozen=True)
 class Kept:
@@ -86,6 +90,10 @@ class Kept:
         """There is nothing between the points: an error that says so."""
         expected = "a point of a branch, since a diagram from a file has nothing between them"
         raise InputError("state", f"between points {i} and {i + 1}", expected)
+
+    def at_value(self, i: int, value: float) -> Between:
+        """There is nothing between the points: an error that says so."""
+        return self.between(i, value)
 
 
 Source: TypeAlias = Live | Kept

@@ -204,10 +204,13 @@ impl Chain {
         self.last.factors = Some(Panel::new(&self.last(), &self.sizes(), None, VANISHING_AT_SOLUTION));
     }
 
-    /// Changes of the last panel that change nothing; none before it is factorised.
+    /// Changes of the last panel that change nothing, or that a border keeps from being made; none before it is factorised.
     #[must_use]
-    pub fn kernel(&self) -> &[Vec<f64>] {
-        self.last.factors.as_ref().map_or(&[], Panel::kernel)
+    pub fn kernel(&self) -> Vec<Vec<f64>> {
+        let Some(factors) = &self.last.factors else { return Vec::new() };
+        let unit = |row: usize| (0..self.last.size).map(|i| f64::from(u8::from(i == row))).collect();
+        let held = (self.n + self.m..self.last.size).map(|row| factors.solve(unit(row)));
+        factors.kernel().iter().cloned().chain(held).collect()
     }
 
     /// The border that small singular values of the last panel ask for; `None` if none is far below the others.

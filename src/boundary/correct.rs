@@ -66,7 +66,7 @@ impl System {
     }
 
     /// Unit motions that change nothing, at right angles to one another: a rod that is the same in all directions may turn about the line of
-    /// its ends and loads.
+    /// its ends and loads, a closed ribbon glide along itself.
     #[must_use]
     pub fn motions(&self) -> Vec<Correction> {
         let none = || Rhs {
@@ -78,7 +78,7 @@ impl System {
         };
         let mut motions: Vec<Correction> = Vec::new();
         for last in self.chain.kernel() {
-            let mut motion = self.expanded(none(), last);
+            let mut motion = self.expanded(none(), &last);
             for other in &motions {
                 motion = motion.plus(-motion.dot(other, &self.mesh), other);
             }

@@ -47,10 +47,7 @@ type Vector = Vector3<f64>;
 const BUCKLED: f64 = 1e-6;
 /// Stiffness of the springs, in units of the soft stiffness of the whole ribbon.
 const SPRING: f64 = 1e-7;
-/// Eigenvalues of the last pivot of this part of the largest are zero where a closed ribbon may glide along itself,
-/// which the error of the mesh makes a little more or less.
-const GLIDING: f64 = 1e-8;
-/// The same, a few roundings, where the ends hold what is rigid.
+/// Part of the flexibility of all elements that stands for none at all, a few roundings, where the ends hold what is rigid.
 const ROUNDING: f64 = 1e-13;
 
 impl Problem {
@@ -191,7 +188,7 @@ pub fn index(
     let springs = &free * free.transpose() / SPRING;
     // F, of all that is behind.
     let mut behind = Matrix6::from_iterator(springs.iter().copied());
-    let mut index = 0_isize;
+    let (mut index, mut flexibility) = (0_isize, 0.0);
     let held = |node: usize| {
         let here = holding.iter().filter(|spring| spring.node == node);
         here.fold(Matrix6::zeros(), |sum, spring| sum + spring.along * spring.along.transpose())
@@ -201,6 +198,7 @@ pub fn index(
         // An element so long that it buckles by itself, held at its start alone: its strains were eliminated at that.
         let own = Symmetric::new(&element.flexibility)?;
         index += own.negative(BUCKLED * element.flexibility.amax()) as isize;
+        flexibility += element.flexibility.amax();
         let (root, signs) = Symmetric::new(&behind)?.root();
         let pivot = root.tr_mul(&((element.stiffness + held(i)) * root)) + Matrix6::from_diagonal(&signs);
         let pivot = Symmetric::new(&pivot)?;
@@ -216,14 +214,10 @@ pub fn index(
     last.view_mut((6, 0), (free.ncols(), 6)).copy_from(&free.transpose());
     let spring = free.transpose() * held(rows.len()) * &free;
     last.view_mut((6, 6), (free.ncols(), free.ncols())).copy_from(&spring);
-    // No flexibility at all is a little of it; of gliding there is neither more nor less.
-    let zero = match (problem.glides(), rigid) {
-        (true, _) => -GLIDING,
-        (false, true) => ROUNDING,
-        (false, false) => 0.0,
-    };
-    let shift = zero * behind.amax();
-    (0..6).for_each(|i| last[(i, i)] -= shift);
+    // No flexibility at all is a little of it.
+    if rigid {
+        (0..6).for_each(|i| last[(i, i)] -= ROUNDING * flexibility);
+    }
     index += Symmetric::new(&last)?.negative(0.0) as isize - 6;
     usize::try_from(index).ok()
 }

@@ -64,9 +64,20 @@ fn both_ways<E: Equations>(
     if !inside || ahead.ended[1] == Ended::Closed {
         return ahead;
     }
+    let motions = start.stability.free_motions;
     let start = reversed(equations, start);
     let back = walked(equations, start, limits, met);
-    joined(equations, back, ahead)
+    let place = back.points.len() - 1;
+    let [before, after] = [&back, &ahead].map(|half| half.points[0].stability.clone());
+    let mut branch = joined(equations, back, ahead);
+    // Where more motions change nothing than beside branches meet.
+    let change = before.index.zip(after.index).map_or(0, |(before, after)| before.abs_diff(after));
+    if motions > after.free_motions && change > 0 {
+        let special = Special { kind: SpecialKind::BranchPoint, place, multiplicity: change, off: None };
+        branch.special.push(special);
+        branch.special.sort_by_key(|special| special.place);
+    }
+    branch
 }
 
 /// Follows what branches off a branch.
@@ -89,7 +100,10 @@ fn switch<E: Equations>(
             _ => continue,
         };
         for Leaving { point, mirrored } in off {
-            if limits.interrupted.is_some_and(|asks| asks()) || passed(equations, branches, &point) {
+            // Where a branch begins with more motions that change nothing than beside they lead to the same state, turned.
+            let turned = at.stability.determinant.is_none() && (point.t - at.t).abs() < SAME_PARAMETER;
+            let interrupted = limits.interrupted.is_some_and(|asks| asks());
+            if turned || interrupted || passed(equations, branches, &point) {
                 continue;
             }
             let (beginning, point, passed_over) = first_step(equations, &at, point, limits);
@@ -162,6 +176,8 @@ fn leaving_along<E: Equations>(equations: &mut E, at: &PointOf<E>, first: &Point
     }
 }
 
+/// Change of the parameter that is none.
+const SAME_PARAMETER: f64 = 1e-9;
 /// A first step that is not shortened.
 const NEAREST: f64 = 1e-3;
 

@@ -3,7 +3,7 @@
 use super::advance::{Advanced, advanced};
 use super::branch::{BranchOf, Ended, Limits, Special, SpecialKind, is_closed};
 use super::correct::{EXACTLY, Guess, Point, PointOf, corrected};
-use super::equations::{Direction, Equations, Failed};
+use super::equations::{Direction, Equations, Failed, Stability};
 use super::locate::{Found, special_points, unlike};
 use super::place::at_value;
 use super::switch::{Off, across, stepped};
@@ -56,6 +56,8 @@ struct Walk<'a, E: Equations> {
     branch: BranchOf<E>,
     /// The free motions of all its points.
     motions: usize,
+    /// Whether the first had more.
+    singular: bool,
     /// The length of the next step.
     step: f64,
     /// The last regular points, on this mesh, by which the next is predicted.
@@ -107,6 +109,7 @@ impl<'a, E: Equations> Walk<'a, E> {
             limits,
             branch,
             motions,
+            singular: false,
             step,
             fine: Fine { place: 0, memory: memory.clone(), step },
             memory,
@@ -185,8 +188,13 @@ impl<'a, E: Equations> Walk<'a, E> {
 
     /// The next point, and what lies before it, or a finer mesh to look for that on.
     fn attempt(&mut self, equations: &mut E) -> Result<Attempt<E>, Failed> {
-        equations.expect_motions(Some(self.motions));
+        // The first point may have motions that its neighbours have not.
+        let known = self.steps > 0 || self.motions == 0;
+        equations.expect_motions(known.then_some(self.motions));
         let mut next = advanced(equations, self.last(), &self.memory, self.step, self.limits)?;
+        if next.point.stability.free_motions < self.motions {
+            self.begins_at(&next.point.stability);
+        }
         let found = special_points(equations, self.last(), &next.point, self.limits);
         if found.as_ref().map_or(true, |found| are_near(found))
             && let Some(finer) = self.sharper(equations, &next.point)
@@ -214,6 +222,14 @@ impl<'a, E: Equations> Walk<'a, E> {
             }
             None => Attempt::Next(next, found),
         })
+    }
+
+    /// Takes the stability of the second point, which has fewer free motions, for that of the first: there is a branch point at that.
+    fn begins_at(&mut self, second: &Stability) {
+        (self.motions, self.singular) = (second.free_motions, true);
+        for first in [&mut self.branch.points[0], &mut self.memory[0], &mut self.fine.memory[0]] {
+            first.stability = Stability { determinant: None, ..second.clone() };
+        }
     }
 
     /// The next point on a finer mesh, where something special before it was looked for in vain: by the third root of its error two branches
@@ -311,9 +327,16 @@ impl<'a, E: Equations> Walk<'a, E> {
         let kept = self.fine.place == 0 && along.t.abs() > 0.1;
         let across = if kept { None } else { Some(&along) };
         let guess = Guess { x, t: point.t, across, sense: Some(&along) };
+        let singular = self.singular && self.fine.place == 0;
+        if singular {
+            equations.expect_motions(None);
+        }
         let mut again = corrected(equations, guess, self.limits.tolerance, EXACTLY)?.point;
         if kept {
             again.t = point.t;
+        }
+        if singular {
+            again.stability = point.stability.clone();
         }
         again.s = point.s;
         Ok(again)

@@ -18,8 +18,9 @@ const LOCATED: f64 = 0.05;
 const FROM_ENDS: f64 = 0.1;
 /// Steps from beyond so many of the distances at which values are taken come from afar.
 const FAR: f64 = 4.0;
-/// Of the parameter, where rounding keeps it larger.
+/// Of the parameter, where rounding keeps it larger, and the same of the tolerance of points.
 const ROUNDING: f64 = 1e-10;
+const KEPT: f64 = 0.1;
 /// An interval that is no longer divided.
 const NEAREST: f64 = 1e-7;
 
@@ -37,6 +38,9 @@ const SPREAD: f64 = 1.5e-3;
 const KNOWN: f64 = 0.25;
 const WITHIN: f64 = 0.4;
 
+/// How far Newton's method at a value may go, of the distance from the ends of the interval: a branch that crosses this one at an end is as far.
+const NEAR: f64 = 0.2;
+
 /// The point between at this value of the parameter.
 pub fn at_value<E: Equations>(
     equations: &mut E,
@@ -47,23 +51,22 @@ pub fn at_value<E: Equations>(
     if let Some(end) = [a, b].into_iter().find(|end| end.t == value) {
         return Some(end.clone());
     }
+    let ends = [a.s, b.s];
     let (mut a, mut b) = (a.clone(), b.clone());
-    let mut by_newton = true;
     for trial in 0..MOST {
         // By a secant, then by halves: next to a fold the parameter is not linear.
         let part = if trial < 4 { (value - a.t) / (b.t - a.t) } else { 0.5 };
         let middle = at(equations, &a, &b, part * (b.s - a.s))?;
-        // From near enough by Newton's method at this value; at a fold or a branch point that fails.
-        if by_newton && (middle.t - value).abs() < 0.1 {
-            by_newton = false;
+        let most = NEAR * (middle.s - ends[0]).min(ends[1] - middle.s);
+        let missed = (middle.t - value).abs();
+        if missed < most * middle.along.t.abs() {
             let guess = Guess { x: middle.x.clone(), t: value, across: None, sense: Some(&middle.along) };
-            let there = corrected(equations, guess, 1e-11, EXACTLY).ok().filter(|c| c.first < b.s - a.s);
-            if let Some(Corrected { mut point, .. }) = there {
-                (point.t, point.s) = (value, middle.s);
-                return Some(point);
+            let there = corrected(equations, guess, 1e-11, EXACTLY).ok().filter(|c| c.first < 2.0 * most);
+            if let Some(Corrected { point, .. }) = there {
+                return Some(PointOf::<E> { t: value, s: middle.s, ..point });
             }
         }
-        if (middle.t - value).abs() < EXACT || b.s - a.s < NEAREST {
+        if missed < EXACT || b.s - a.s < NEAREST {
             return Some(middle);
         }
         if (middle.t - value) * (a.t - value) < 0.0 { b = middle } else { a = middle }
@@ -226,7 +229,7 @@ pub fn located<E: Equations>(
             spread *= 0.4;
             // What does not get better nearer the root is rounding.
             rounding = least[1].min(least[2]) > 0.5 * least[0]
-                && best.0 * a.along.t.abs().max(b.along.t.abs()) < ROUNDING;
+                && best.0 * a.along.t.abs().max(b.along.t.abs()) < ROUNDING.max(KEPT * limits.tolerance);
             least = [least[0].min(least[1]), least[2], f64::INFINITY];
         }
         // Next to an end that is itself next to a root values agree on that one, until they are taken as near.

@@ -35,7 +35,9 @@ class FakeBranch:
         return self.states[i].course.solution if self.held else None
 
     def between(self, i, fraction):
-        value = (1.0 - fraction) * self.parameter[i] + fraction * self.parameter[i + 1]
+        return self.at_value(i, (1.0 - fraction) * self.parameter[i] + fraction * self.parameter[i + 1])
+
+    def at_value(self, i, value):
         state = self.state(value)
         return value, state.strains.mean(axis=0), state.course.solution if self.held else None
 

@@ -288,3 +288,15 @@ def test_a_ring_of_its_natural_curvature_bears_no_load():
     assert largest(state.strains - (0.0, 0.0, 2.0 * math.pi / 20.0, 0.0)) < CLOSE
     assert abs(state.energy) < 1e-24
     assert largest(np.concatenate([state.reactions.start.force, state.reactions.start.moment])) < 1e-14
+
+
+@pytest.mark.parametrize("turns", [90.0, 101.0, 129.6])
+def test_guesses_keep_their_turns(turns):
+    # more than half a turn from one of the sections that a guess is handed over at to the next
+    law = rb.LinearLaw(EI1=5.0, EI2=1.0, GJ=0.7, inextensible=True)
+    scene = rod(length=300.0, law=law, end=rb.Sliding(force=1.0, twist_turns=turns))
+    twist = 2.0 * math.pi * turns / 300.0
+    state = rb.solve(scene, guess=(0.0, 0.0, 0.0, twist))
+    again = rb.solve(scene, guess=state)
+    for found in (state, again):
+        np.testing.assert_allclose(found.strains[:, 3], twist, rtol=1e-10)

@@ -38,6 +38,31 @@ def test_energies_ascend_and_all_are_equilibria() -> None:
     assert len({round(e, 12) for e in energies}) == len(states) == 6
 
 
+def winding(state: rb.State) -> float:
+    """1 or -1: the quaternion that a rotation without turns becomes along the ribbon, over that."""
+    q = state.quaternion
+    return float(np.sign(np.prod(np.sign(np.einsum("ni,ni->n", q[:-1], q[1:]))) * (q[0] @ q[-1])))
+
+
+@pytest.mark.parametrize(("turns", "sign"), [(0.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (2.0, 1.0)])
+def test_clamped_states_have_the_turns_asked_for(turns: float, sign: float) -> None:
+    # A turn more or less is another quaternion of the end; two are not told apart, for ribbons may cross themselves.
+    rod = rb.LinearLaw(EI1=5.0, EI2=1.0, GJ=1.0, inextensible=True)
+    end = rb.Clamped(position=(0.0, 0.0, 0.8), twist_turns=turns)
+    states = rb.find_states(rb.Scene(rb.Ribbon(1.0, 1.0, 0.1), law=rod, end=end), most=6)
+    assert len(states) > 2
+    assert {winding(state) for state in states} == {sign}
+
+
+@pytest.mark.parametrize("link", [0, 1])
+def test_closed_states_have_the_link_asked_for(link: int) -> None:
+    rod = rb.LinearLaw(EI1=5.0, EI2=1.0, GJ=1.0, inextensible=True)
+    states = rb.find_states(rb.Scene(rb.Ribbon(1.0, 1.0, 0.1), law=rod, start=rb.Closed(link=link)), most=4)
+    assert len(states) > 1
+    # A ring without turns turns by one about its normal.
+    assert {winding(state) for state in states} == {1.0 if link else -1.0}
+
+
 def test_unloaded_ribbons_have_their_natural_shapes() -> None:
     growth = rb.growth.edge(0.06)
     found = rb.find_states(rb.Scene(STRIP, growth))

@@ -1,4 +1,4 @@
-"""Branches that meet another from its side, turn back outside the span, or are asked for next to where they begin."""
+"""Branches that meet another from its side, or turn back outside the span; states next to branch points."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ LAWS = {
 @pytest.mark.parametrize("distance", [0.9, 0.95, 0.98])
 @pytest.mark.parametrize("name", LAWS)
 def test_the_way_over_joins_both_arches(name: str, distance: float, tol: float) -> None:
-    # An arch with a load across sways to one side and becomes its mirror image: a pitchfork on each, met from the side.
+    # An arch with a load across sways aside and becomes its mirror image: a pitchfork on each, from the side.
     scene = pressed(LAWS[name], distance)
     span = (-SPAN, SPAN)
     diagram = rb.trace(scene, "loads[0].force[0]", span, start=rb.solve(scene), tol=tol, depth=1)

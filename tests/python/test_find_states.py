@@ -46,7 +46,7 @@ def winding(state: rb.State) -> float:
 
 @pytest.mark.parametrize(("turns", "sign"), [(0.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (2.0, 1.0)])
 def test_clamped_states_have_the_turns_asked_for(turns: float, sign: float) -> None:
-    # A turn more or less is another quaternion of the end; two are not told apart, for ribbons may cross themselves.
+    # A turn more or less is another quaternion of the end; two are not told apart, for ribbons may cross.
     rod = rb.LinearLaw(EI1=5.0, EI2=1.0, GJ=1.0, inextensible=True)
     end = rb.Clamped(position=(0.0, 0.0, 0.8), twist_turns=turns)
     states = rb.find_states(rb.Scene(rb.Ribbon(1.0, 1.0, 0.1), law=rod, end=end), most=6)

@@ -1,4 +1,4 @@
-"""Rods that are the same in all directions: what turns them about the line of their loads changes nothing, and does not count."""
+"""Rods that are the same in all directions: what turns them about the line of their loads does not count."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def ring(natural: float) -> rb.Scene:
 
 
 def unstable(natural: float) -> int:
-    """Directions of negative second variation: modes cos, sin n S of bending out of the plane and twist, and rolling."""
+    """Directions of negative second variation: n waves of bending out of the plane and twist, and rolling."""
     moment = 1.0 - natural
     count = int(natural < 0.0)
     for n in range(1, 9):

@@ -20,6 +20,8 @@ pub struct Family {
     corners: Vec<Arc<Problem>>,
     law_varies: bool,
     ends_alone: bool,
+    /// Where sections of different phases meet, over the length.
+    kinks: Vec<f64>,
 }
 
 impl Family {
@@ -61,7 +63,13 @@ impl Family {
             points && first.line == other.line && first.length == other.length
         };
         let ends_alone = !law_varies && corners.iter().all(|other| same(other));
-        Ok(Self { corners, law_varies, ends_alone })
+        Ok(Self { corners, law_varies, ends_alone, kinks: Vec::new() })
+    }
+
+    /// The family with elements that end at these places, over the length, where strains jump.
+    #[must_use]
+    pub fn with_kinks(self, kinks: Vec<f64>) -> Self {
+        Self { kinks, ..self }
     }
 
     /// The states that the loads need anywhere in the family.
@@ -127,7 +135,10 @@ impl Family {
         let line = LineLoad { force: along(|line| &line.force)?, moment: along(|line| &line.moment)? };
         let law = if self.law_varies { Arc::new(self.law(&weights)?) } else { Arc::clone(&first.law) };
         let points = (0..first.points.len()).map(point).collect();
-        Ok(Arc::new(Problem::new(law, self.length(at), [end(0), end(1)], points, line)?))
+        let length = self.length(at);
+        let mut problem = Problem::new(law, length, [end(0), end(1)], points, line)?;
+        problem.kinks = self.kinks.iter().map(|kink| kink * length).collect();
+        Ok(Arc::new(problem))
     }
 
     fn law(&self, weights: &[f64]) -> Result<Law, InvalidInput> {

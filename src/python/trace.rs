@@ -81,8 +81,10 @@ pub fn trace(
     degree: Option<usize>,
 ) -> PyResult<Trace> {
     let degree = checked_degree(degree)?;
-    let family = Family::new(vec![problems.0.problem(), problems.1.problem()])?;
     let solution = start.solution();
+    let length = solution.problem().length;
+    let kinks = solution.kinks()?.into_iter().map(|s| s / length).collect();
+    let family = Family::new(vec![problems.0.problem(), problems.1.problem()])?.with_kinks(kinks);
     let t = (start_value - span[0]) / (span[1] - span[0]);
     // The stages are those of its own degree.
     if solution.degree() != degree {

@@ -45,6 +45,9 @@ pub fn follow<E: Equations>(
             break ended;
         }
     };
+    if matches!(ended, Ended::Section | Ended::Failed(_)) && ended != Ended::Failed(Failed::Interrupted) {
+        walk.drop_coarse(equations);
+    }
     walk.branch.ended[1] = ended;
     walk.branch
 }
@@ -171,6 +174,19 @@ impl<'a, E: Equations> Walk<'a, E> {
             }
             Err(failed) => Err(self.ended_by(failed)),
         }
+    }
+
+    /// Drops the last points if their mesh is too coarse, back to where it was last found fine enough.
+    fn drop_coarse(&mut self, equations: &mut E) {
+        while self.branch.points.len() > self.fine.place + 1 {
+            let last = self.last();
+            if let Ok(None) = equations.refined(&last.x, last.t, &last.along, f64::INFINITY) {
+                break;
+            }
+            self.branch.points.pop();
+        }
+        let count = self.branch.points.len();
+        self.branch.special.retain(|special| special.place < count);
     }
 
     /// Refuses another step where the range of the parameter ends, after as many as were allowed, and where asked to stop.

@@ -204,13 +204,11 @@ impl<'a, E: Equations> Walk<'a, E> {
 
     /// The next point, and what lies before it, or a finer mesh to look for that on.
     fn attempt(&mut self, equations: &mut E) -> Result<Attempt<E>, Failed> {
-        // The first point may have motions that its neighbours have not.
-        let known = self.steps > 0 || self.motions == 0;
-        equations.expect_motions(known.then_some(self.motions));
-        let mut next = advanced(equations, self.last(), &self.memory, self.step, self.limits)?;
-        if next.point.stability.free_motions < self.motions {
-            self.begins_at(&next.point.stability);
+        if self.steps == 0 && self.motions > 0 {
+            self.begin(equations)?;
         }
+        equations.expect_motions(Some(self.motions));
+        let mut next = advanced(equations, self.last(), &self.memory, self.step, self.limits)?;
         let found = special_points(equations, self.last(), &next.point, self.limits);
         if found.as_ref().map_or(true, |found| are_near(found))
             && let Some(finer) = self.sharper(equations, &next.point)
@@ -240,12 +238,24 @@ impl<'a, E: Equations> Walk<'a, E> {
         })
     }
 
-    /// Takes the stability of the second point, which has fewer free motions, for that of the first: there is a branch point at that.
-    fn begins_at(&mut self, second: &Stability) {
-        (self.motions, self.singular) = (second.free_motions, true);
-        for first in [&mut self.branch.points[0], &mut self.memory[0], &mut self.fine.memory[0]] {
-            first.stability = Stability { determinant: None, ..second.clone() };
+    /// Looks at a second point: if it has fewer free motions than the first that is a branch point, and takes the stability of its neighbour.
+    ///
+    /// # Errors
+    /// If there is none.
+    fn begin(&mut self, equations: &mut E) -> Result<(), Failed> {
+        equations.expect_motions(None);
+        let next = advanced(equations, self.last(), &self.memory, self.step, self.limits)?.point;
+        // What is a little beside the equilibrium is not as singular.
+        let across = self.last().along.clone();
+        let guess = Guess { x: next.x, t: next.t, across: Some(&across), sense: Some(&across) };
+        let second = corrected(equations, guess, self.limits.tolerance, EXACTLY)?.point.stability;
+        if second.free_motions < self.motions {
+            (self.motions, self.singular) = (second.free_motions, true);
+            for first in [&mut self.branch.points[0], &mut self.memory[0], &mut self.fine.memory[0]] {
+                first.stability = Stability { determinant: None, ..second.clone() };
+            }
         }
+        Ok(())
     }
 
     /// The next point on a finer mesh, where something special before it was looked for in vain: by the third root of its error two branches

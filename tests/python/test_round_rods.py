@@ -126,3 +126,16 @@ def test_a_force_across_a_buckled_column_is_followed_both_ways() -> None:
     last = branch.state(-1)
     np.testing.assert_allclose(last.position[-1], plane.position[-1], atol=1e-8)
     assert (branch.index[0], branch.index[-1]) in ((1.0, 0.0), (0.0, 1.0))
+
+
+@pytest.mark.parametrize("distance", [0.9, 0.7, 0.6, 0.5, 0.4])
+@pytest.mark.parametrize("tol", [1e-4, 1e-10])
+def test_clamps_are_drawn_apart(distance: float, tol: float) -> None:
+    # A motion that changes nothing stays one, whatever the error of the points that tell.
+    scene = rod(law=law(1.0), end=rb.Clamped(position=(0.0, 0.0, distance)))
+    diagram = rb.trace(scene, "end.position[2]", (distance, 0.99), tol=tol, depth=0)
+    (branch,) = diagram.branches
+    assert branch.ended == ("start", "span")
+    assert set(branch.index) == {0.0}
+    plane = rb.solve(rod(law=law(100.0), end=rb.Clamped(position=(0.0, 0.0, 0.99))))
+    assert branch.energy[-1] == pytest.approx(plane.energy, rel=10.0 * tol)

@@ -23,7 +23,8 @@ def find_states(
 
     Of an unloaded ribbon they are all there are, as of `natural_shapes`. Of one that is loaded or held
     otherwise, the one that `solve` gives without a guess and those that deflation finds, with no promise
-    that there are no others; of mirror images one.
+    that there are no others; of mirror images one. Where both ends are turned by so many turns they all are,
+    but for two more or less, which a ribbon that may cross itself loses.
 
     Parameters
     ----------

@@ -47,7 +47,7 @@ type Vector = Vector3<f64>;
 const BUCKLED: f64 = 1e-6;
 /// Stiffness of the springs, in units of the soft stiffness of the whole ribbon.
 const SPRING: f64 = 1e-7;
-/// Part of the flexibility of all elements that stands for none at all, a few roundings, where the ends hold what is rigid.
+/// Part of the flexibility of all elements and of the springs that stands for none at all, a few roundings, where the ends hold what is rigid.
 const ROUNDING: f64 = 1e-13;
 
 impl Problem {
@@ -188,7 +188,7 @@ pub fn index(
     let springs = &free * free.transpose() / SPRING;
     // F, of all that is behind.
     let mut behind = Matrix6::from_iterator(springs.iter().copied());
-    let (mut index, mut flexibility) = (0_isize, 0.0);
+    let (mut index, mut flexibility) = (0_isize, behind.amax());
     let held = |node: usize| {
         let here = holding.iter().filter(|spring| spring.node == node);
         here.fold(Matrix6::zeros(), |sum, spring| sum + spring.along * spring.along.transpose())

@@ -39,7 +39,7 @@ const KNOWN: f64 = 0.25;
 const WITHIN: f64 = 0.4;
 
 /// How far Newton's method at a value may go, of the distance from the ends of the interval: a branch that crosses this one at an end is as far.
-const NEAR: f64 = 0.2;
+const NEAR: f64 = 0.02;
 
 /// The point between at this value of the parameter.
 pub fn at_value<E: Equations>(
@@ -63,7 +63,8 @@ pub fn at_value<E: Equations>(
             let guess = Guess { x: middle.x.clone(), t: value, across: None, sense: Some(&middle.along) };
             let there = corrected(equations, guess, 1e-11, EXACTLY).ok().filter(|c| c.first < 2.0 * most);
             if let Some(Corrected { point, .. }) = there {
-                return Some(PointOf::<E> { t: value, s: middle.s, ..point });
+                let slope = 0.5 * (middle.along.t + point.along.t);
+                return Some(PointOf::<E> { t: value, s: middle.s + (value - middle.t) / slope, ..point });
             }
         }
         if missed < EXACT || b.s - a.s < NEAREST {

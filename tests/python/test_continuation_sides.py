@@ -148,3 +148,13 @@ def test_natural_states_next_to_a_branch_point() -> None:
         exact = rb.natural_shapes(leaf, rb.growth.edge(amplitude))
         energies = sorted({round(state.energy, 12) for state in exact})
         assert sorted({round(state.energy, 12) for state in found}) == energies
+
+
+def test_values_are_in_the_order_of_the_branch() -> None:
+    # many between two points of it
+    column = rod(law=STIFF, end=rb.Free(force=(0.1, 0.0, -1.0)))
+    values = np.linspace(-29.0, -1.0, 1000)
+    diagram = rb.trace(column, "end.force[2]", (-30.0, 0.0), values=values.tolist(), depth=0)
+    (branch,) = diagram.branches
+    assert np.all(np.isin(values, branch.parameter))
+    assert np.all(np.diff(branch.parameter) > 0.0)

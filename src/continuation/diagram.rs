@@ -5,8 +5,8 @@ use super::branch::{BranchOf, Ended, Limits, Special, SpecialKind, SpecialOf};
 use super::correct::{PointOf, difference, reversed};
 use super::equations::{Equations, Stability, plus, scaled, unit};
 use super::locate::{Found, special_points, values_between};
-use super::place::at_value;
 use super::switch::{FROM_THE_SIDE, Leaving, alike, leaving, leaving_with_section};
+use super::value::at_value;
 use super::walk::follow;
 
 /// Branches and their special points.

@@ -30,6 +30,14 @@ pub struct Stability {
     pub determinant: Option<Determinant>,
 }
 
+impl Stability {
+    /// The product of the signs of both determinants; 0 if one is not known.
+    #[must_use]
+    pub fn signs(&self, other: &Self) -> f64 {
+        self.determinant.zip(other.determinant).map_or(0.0, |(a, b)| a.sign * b.sign)
+    }
+}
+
 /// Why a step cannot be made.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum Failed {

@@ -4,8 +4,9 @@ use super::between::at;
 use super::branch::{Limits, SpecialKind};
 use super::correct::{Point, PointOf};
 use super::equations::{Equations, Failed, Stability};
-use super::place::{at_value, located};
+use super::place::located;
 use super::switch::OffOf;
+use super::value::at_value;
 
 /// A special point that was found.
 pub struct Found<E: Equations> {
@@ -149,7 +150,7 @@ fn change<S, C>(a: &Point<S, C>, b: &Point<S, C>) -> Option<(SpecialKind, usize)
         return Some((SpecialKind::SectionInstability, unstable[0].abs_diff(unstable[1])));
     }
     let turns = a.along.t * b.along.t < 0.0;
-    let sign = signs(a, b);
+    let sign = a.stability.signs(&b.stability);
     let index = a.stability.index.zip(b.stability.index);
     // The determinant tells whether the index changes by an odd number: next to a fold, and to a branch point from the side, it is that of
     // rounding.
@@ -172,11 +173,6 @@ fn change<S, C>(a: &Point<S, C>, b: &Point<S, C>) -> Option<(SpecialKind, usize)
 /// Whether there is a special point between two, other than values of the parameter.
 pub fn unlike<S, C>(a: &Point<S, C>, b: &Point<S, C>) -> bool {
     change(a, b).is_some()
-}
-
-/// The product of the signs of the determinants; 0 if one is not known.
-pub fn signs<S, C>(a: &Point<S, C>, b: &Point<S, C>) -> f64 {
-    a.stability.determinant.zip(b.stability.determinant).map_or(0.0, |(a, b)| a.sign * b.sign)
 }
 
 /// How far beside a special point, of the interval it was found in, others are not told from it.

@@ -10,13 +10,15 @@
 //! | `predict`, `correct`, `advance` | a step along a branch |
 //! | `branch` | a branch, its beginning and its ends |
 //! | `walk` | along a branch, as far as it is asked for |
-//! | `locate`, `between`, `place`, `near_miss` | special points between two points of a branch, their places, and branches that nearly meet |
+//! | `locate`, `change`, `between` | special points between two points of a branch: what changes there |
+//! | `place`, `root`, `value`, `near_miss` | their places, points at a value of the parameter, and branches that nearly meet |
 //! | `locus` | a special point as a second parameter varies |
 //! | `switch`, `diagram` | what branches off, and all branches that hang together |
 
 mod advance;
 mod between;
 mod branch;
+mod change;
 mod correct;
 mod diagram;
 mod equations;
@@ -28,7 +30,9 @@ mod natural;
 mod near_miss;
 mod place;
 mod predict;
+mod root;
 mod switch;
+mod value;
 mod walk;
 
 pub use between::at as between;
@@ -40,4 +44,4 @@ pub use held::{Held, Work};
 pub use held_state::{HeldState, begin_with};
 pub use locus::{Locus, Plane, locus};
 pub use natural::{Natural, NaturalFamily};
-pub use place::at_value;
+pub use value::at_value;

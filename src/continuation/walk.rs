@@ -5,8 +5,8 @@ use super::branch::{BranchOf, Ended, Limits, Special, SpecialKind, is_closed};
 use super::correct::{EXACTLY, Guess, Point, PointOf, corrected};
 use super::equations::{Direction, Equations, Failed, Stability};
 use super::locate::{Found, special_points, unlike};
-use super::place::at_value;
 use super::switch::{Off, across, stepped};
+use super::value::at_value;
 
 /// The first step.
 const FIRST_STEP: f64 = 0.02;

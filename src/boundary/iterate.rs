@@ -199,7 +199,12 @@ impl Correction {
     /// The scalar product that belongs to the norm.
     #[must_use]
     pub fn dot(&self, other: &Self, mesh: &Mesh) -> f64 {
-        let length = mesh.problem.length;
+        self.dot_over(other, mesh, mesh.problem.length)
+    }
+
+    /// The same with curvatures over this length, on meshes of ribbons of any.
+    #[must_use]
+    pub fn dot_over(&self, other: &Self, mesh: &Mesh, length: f64) -> f64 {
         let s = mesh.gauss.degree;
         let mut sum = 0.0;
         for i in 0..mesh.elements() {
@@ -213,7 +218,7 @@ impl Correction {
             for ((a, b), weight) in pairs.zip(&mesh.gauss.weights) {
                 local += weight * (a[0] * b[0] + length * length * a.rows(1, 3).dot(&b.rows(1, 3)));
             }
-            sum += local * mesh.length(i) / length;
+            sum += local * mesh.length(i) / mesh.problem.length;
         }
         sum
     }

@@ -194,7 +194,10 @@ impl Equations for Held {
 
     fn dot(&self, a: &Correction, b: &Correction) -> f64 {
         let fits = |system: &&System| [a, b].iter().all(|c| c.nodes.len() == system.mesh.nodes.len());
-        self.system.as_ref().filter(fits).map_or(f64::NAN, |system| a.dot(b, &system.mesh))
+        self.system.as_ref().filter(fits).map_or(f64::NAN, |system| {
+            // Of the family, not of the ribbon that was last asked for.
+            a.dot_over(b, &system.mesh, system.units.length)
+        })
     }
 
     fn linearise(

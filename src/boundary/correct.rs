@@ -197,6 +197,17 @@ impl System {
         Bordered(Kind::Chain { by_parameter: rhs, panel: Panel::new(&matrix, &sizes, nullity, VANISHING) })
     }
 
+    /// The same where so many motions change nothing: what is mapped to nothing are these and the line of solutions.
+    #[must_use]
+    pub fn bordered_but_for(&self, by_parameter: &Residual, motions: usize) -> Bordered {
+        let rhs = self.reduced(by_parameter);
+        let matrix = self.with_parameter(&rhs);
+        let mut sizes = self.chain.sizes();
+        sizes.push(matrix.column(matrix.ncols() - 1).amax());
+        let panel = Panel::new(&matrix, &sizes, Some(motions + 1), VANISHING);
+        Bordered(Kind::Chain { by_parameter: rhs, panel })
+    }
+
     /// The last panel with the column of the parameter, and a row of zeros.
     fn with_parameter(&self, by_parameter: &Rhs) -> DMatrix<f64> {
         let last = self.chain.last();
@@ -233,9 +244,9 @@ impl System {
         }
     }
 
-    /// Motions that change nothing, all along a branch.
+    /// Changes that are mapped to nothing.
     #[must_use]
-    pub fn motions_along(&self, bordered: &Bordered) -> Vec<Line> {
+    pub fn mapped_to_nothing(&self, bordered: &Bordered) -> Vec<Line> {
         let Kind::Chain { by_parameter, panel } = &bordered.0 else { return Vec::new() };
         let line = |y: &Vec<f64>| self.line(self.nothing(by_parameter), by_parameter, y);
         panel.kernel().iter().map(line).collect()

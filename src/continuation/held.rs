@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use nalgebra::Vector3;
 
-use super::equations::{Direction, Equations, Failed, Stability, dot, plus, unit};
+use super::equations::{Direction, Equations, Failed, Stability, dot, plus, scaled, unit};
 use super::held_state::HeldState;
 use super::locus::Plane;
 use crate::InvalidInput;
@@ -48,6 +48,8 @@ pub struct Held {
     motions: Option<usize>,
     /// Motions that change nothing, orthonormal, where the equations were linearised.
     free: Vec<Direction<Correction>>,
+    /// The unit tangent where it was last linearised, if there are any.
+    tangent: Option<Direction<Correction>>,
     /// What it took so far.
     pub work: Work,
 }
@@ -88,6 +90,7 @@ impl Held {
             linearised: None,
             motions: None,
             free: Vec::new(),
+            tangent: None,
             work: Work::default(),
         }
     }
@@ -128,6 +131,7 @@ impl Held {
                 system.holds_gliding = false;
                 system.units = *self.units.get_or_insert(system.units);
                 self.free.clear();
+                self.tangent = None;
                 self.linearised = None;
                 self.nodes = Arc::clone(&x.nodes);
                 Ok(self.system.insert(system))
@@ -232,20 +236,26 @@ impl Equations for Held {
             slope.subtract(&system.residual, DIFFERENCE);
             slope
         };
-        let nullity = self.motions;
+        let motions = self.motions;
         let system = self.system(x, t)?;
-        let across = across.map(|across| Line { x: across.x.clone(), t: across.t });
+        let line = across.map(|across| Line { x: across.x.clone(), t: across.t });
         let begun = Instant::now();
-        let bordered = system.bordered(&slope, across.as_ref(), nullity);
-        let factorising = begun.elapsed();
-        let motions = system.motions_along(&bordered);
-        self.work.factorisation += factorising;
+        let mut bordered = match motions {
+            Some(count) if count > 0 => system.bordered_but_for(&slope, count),
+            _ => system.bordered(&slope, line.as_ref(), motions),
+        };
+        let mut nothing = system.mapped_to_nothing(&bordered);
+        if motions.is_none() && !nothing.is_empty() {
+            bordered = system.bordered_but_for(&slope, nothing.len());
+            nothing = system.mapped_to_nothing(&bordered);
+        }
+        self.work.factorisation += begun.elapsed();
         self.bordered = Some(bordered);
         self.linearised = Some((x.clone(), t));
         self.free.clear();
-        for Line { x, t } in motions {
-            let motion = self.without_motions(Direction { x, t });
-            self.free.push(unit(self, &motion));
+        self.tangent = None;
+        if !nothing.is_empty() {
+            self.set_apart(nothing, across);
         }
         Ok(())
     }
@@ -259,6 +269,9 @@ impl Equations for Held {
     }
 
     fn line(&mut self) -> Direction<Correction> {
+        if let Some(tangent) = &self.tangent {
+            return tangent.clone();
+        }
         self.solved(|system, bordered| system.direction(bordered))
     }
 
@@ -442,7 +455,12 @@ impl Held {
         match (&mut self.system, &self.bordered) {
             (Some(system), Some(bordered)) => {
                 let Line { x, t } = system.particular_for(bordered, gaps);
-                Direction { x, t }
+                let error = self.without_motions(Direction { x, t });
+                // At right angles to the branch, where no plane sees to that.
+                match &self.tangent {
+                    Some(tangent) => plus(self, &error, -dot(self, tangent, &error), tangent),
+                    None => error,
+                }
             }
             _ => no_direction(),
         }
@@ -456,6 +474,44 @@ impl Held {
             }
             _ => no_direction(),
         }
+    }
+
+    /// Of all that is mapped to nothing, the tangent of the branch, nearest to a direction, or to a change of the parameter, and the motions
+    /// that are left, at right angles to one another.
+    fn set_apart(&mut self, lines: Vec<Line>, across: Option<&Direction<Correction>>) {
+        let mut basis: Vec<Direction<Correction>> = Vec::new();
+        for Line { x, t } in lines {
+            basis.push(self.beside(Direction { x, t }, &basis).1);
+        }
+        let ahead = |line: &Direction<Correction>| across.map_or(line.t, |across| dot(self, across, line));
+        let parts: Vec<f64> = basis.iter().map(ahead).collect();
+        let mut sum = scaled(self, &basis[0], parts[0]);
+        for (part, line) in parts.iter().zip(&basis).skip(1) {
+            sum = plus(self, &sum, *part, line);
+        }
+        let tangent = unit(self, &sum);
+        let mut apart = vec![tangent.clone()];
+        while apart.len() < basis.len() {
+            // What is farthest from those known.
+            let left = basis.iter().map(|line| self.beside(line.clone(), &apart));
+            let Some((_, farthest)) = left.max_by(|a, b| a.0.total_cmp(&b.0)) else { break };
+            apart.push(farthest);
+        }
+        self.free = apart.split_off(1);
+        self.tangent = Some(tangent);
+    }
+
+    /// The part of a line at right angles to others: its size, and the unit direction.
+    fn beside(
+        &self,
+        mut line: Direction<Correction>,
+        others: &[Direction<Correction>],
+    ) -> (f64, Direction<Correction>) {
+        line = unit(self, &line);
+        for other in others.iter().chain(others) {
+            line = plus(self, &line, -dot(self, other, &line), other);
+        }
+        (dot(self, &line, &line), unit(self, &line))
     }
 
     /// The part of a direction at right angles to the motions that change nothing.

@@ -197,14 +197,14 @@ impl System {
         Bordered(Kind::Chain { by_parameter: rhs, panel: Panel::new(&matrix, &sizes, nullity, VANISHING) })
     }
 
-    /// The same where so many motions change nothing: what is mapped to nothing are these and the line of solutions.
+    /// The same where so many motions change nothing, or as many as do: what is mapped to nothing are these and the line of solutions.
     #[must_use]
-    pub fn bordered_but_for(&self, by_parameter: &Residual, motions: usize) -> Bordered {
+    pub fn bordered_but_for(&self, by_parameter: &Residual, motions: Option<usize>) -> Bordered {
         let rhs = self.reduced(by_parameter);
         let matrix = self.with_parameter(&rhs);
         let mut sizes = self.chain.sizes();
         sizes.push(matrix.column(matrix.ncols() - 1).amax());
-        let panel = Panel::new(&matrix, &sizes, Some(motions + 1), VANISHING);
+        let panel = Panel::new(&matrix, &sizes, motions.map(|count| count + 1), VANISHING);
         Bordered(Kind::Chain { by_parameter: rhs, panel })
     }
 

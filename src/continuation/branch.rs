@@ -1,7 +1,7 @@
 //! A branch: its points, what is special about some of them, and how it ends.
 
 use super::correct::{Corrected, EXACTLY, Guess, Point, PointOf, corrected, reversed};
-use super::equations::{Equations, Failed};
+use super::equations::{Equations, Failed, unit};
 use super::switch::Off;
 
 /// How far a branch is followed, and how well.
@@ -148,17 +148,32 @@ pub fn within<E: Equations>(
     limits: &Limits,
 ) -> Result<PointOf<E>, Failed> {
     equations.expect_motions(None);
-    let guess = Guess { x, t, across: None, sense: None };
-    let Corrected { mut point, first, .. } = corrected(equations, guess, limits.tolerance, EXACTLY)?;
+    let guess = Guess { x: x.clone(), t, across: None, sense: None };
+    let at_value = corrected(equations, guess, limits.tolerance, EXACTLY);
+    let Corrected { mut point, first, .. } = match at_value {
+        Ok(Corrected { point, first, aside }) => {
+            Corrected { point: PointOf::<E> { t, ..point }, first, aside }
+        }
+        Err(failed) => at_fold(equations, x, t, limits).ok_or(failed)?,
+    };
     if first > near {
         return Err(Failed::Jumped);
     }
-    point.t = t;
     // Toward greater parameters.
     if point.along.t < 0.0 {
         point = reversed(equations, point);
     }
     Ok(point)
+}
+
+/// The equilibrium near a state that may be at a fold: across the direction in which the equations with the parameter are most nearly singular.
+fn at_fold<E: Equations>(equations: &mut E, x: E::State, t: f64, limits: &Limits) -> Option<Corrected<E>> {
+    equations.linearise(&x, t, None).ok()?;
+    let kernel = equations.kernel(1).into_iter().next()?;
+    let along = unit(equations, &kernel);
+    let guess = Guess { x, t, across: Some(&along), sense: None };
+    let found = corrected(equations, guess, limits.tolerance, EXACTLY).ok()?;
+    (0.0..=1.0).contains(&found.point.t).then_some(found)
 }
 
 /// A first correction above this was no equilibrium.

@@ -241,12 +241,13 @@ impl Equations for Held {
         let line = across.map(|across| Line { x: across.x.clone(), t: across.t });
         let begun = Instant::now();
         let mut bordered = match motions {
-            Some(count) if count > 0 => system.bordered_but_for(&slope, count),
+            Some(count) if count > 0 => system.bordered_but_for(&slope, motions),
             _ => system.bordered(&slope, line.as_ref(), motions),
         };
         let mut nothing = system.mapped_to_nothing(&bordered);
         if motions.is_none() && !nothing.is_empty() {
-            bordered = system.bordered_but_for(&slope, nothing.len());
+            // At a fold there are none.
+            bordered = system.bordered_but_for(&slope, None);
             nothing = system.mapped_to_nothing(&bordered);
         }
         self.work.factorisation += begun.elapsed();
@@ -484,7 +485,11 @@ impl Held {
             basis.push(self.beside(Direction { x, t }, &basis).1);
         }
         let ahead = |line: &Direction<Correction>| across.map_or(line.t, |across| dot(self, across, line));
-        let parts: Vec<f64> = basis.iter().map(ahead).collect();
+        let parts: Vec<f64> = match across {
+            // At a fold the parameter does not change.
+            None if basis.len() == 1 => vec![1.0],
+            _ => basis.iter().map(ahead).collect(),
+        };
         let mut sum = scaled(self, &basis[0], parts[0]);
         for (part, line) in parts.iter().zip(&basis).skip(1) {
             sum = plus(self, &sum, *part, line);

@@ -158,3 +158,52 @@ def test_values_are_in_the_order_of_the_branch() -> None:
     (branch,) = diagram.branches
     assert np.all(np.isin(values, branch.parameter))
     assert np.all(np.diff(branch.parameter) > 0.0)
+
+
+def test_a_branch_from_its_fold() -> None:
+    # where the equations at a fixed load are singular
+    diagram = arch((-60.0, 120.0))
+    for fold in (point for point in diagram.special_points if point.kind == "fold"):
+        start = diagram.branches[0].state(fold.place)
+        again = rb.trace(start.scene, "loads[0].force[0]", (-60.0, 120.0), start=start, tol=1e-10, depth=0)
+        assert again.branches[0].ended == ("span", "span")
+        for kind in ("fold", "branch_point"):
+            np.testing.assert_allclose(places(again, kind), places(diagram, kind), atol=1e-8)
+
+
+def test_what_is_between_points_does_not_hang_on_what_was_asked_before() -> None:
+    scene = rb.Scene(
+        rb.Ribbon(10.0, 1.0, 0.1), rb.growth.thickness(0.05), end=rb.Clamped(position=(0.0, 0.0, 9.5))
+    )
+    zeros = {"length": lambda state: state.scene.ribbon.length - 10.3}
+    diagram = rb.trace(scene, "ribbon.length", (9.7, 11.0), functions=zeros)
+    (zero,) = (point for point in diagram.special_points if point.kind == "zero")
+    assert zero.parameter == pytest.approx(10.3, abs=1e-11)
+    assert zero.state.scene.ribbon.length == pytest.approx(10.3, abs=1e-11)
+    (branch,) = diagram.branches
+    length = branch.between(2, 0.3).scene.ribbon.length
+    branch.state(0), branch.between(0, 0.5)
+    assert branch.between(2, 0.3).scene.ribbon.length == pytest.approx(length, rel=1e-12)
+
+
+GROWTHS = {
+    "thickness": (rb.growth.thickness(0.02), "growth.thickness.amplitude", 0.02),
+    "edges": (rb.growth.edge(0.002), "growth.edge.amplitude", 0.004),
+    "chiral": (rb.growth.chiral(0.005), "growth.chiral.amplitude", 0.01),
+}
+
+
+@pytest.mark.parametrize("law", ["full", "linear"])
+@pytest.mark.parametrize("link", [0, 1])
+@pytest.mark.parametrize("name", GROWTHS)
+def test_closed_ribbons_do_not_glide_as_they_grow(name: str, link: int, law: str) -> None:
+    # A twisted ring bends more in some places than in others, and any of them may be where it is clamped to itself.
+    growth, parameter, most = GROWTHS[name]
+    scene = rb.Scene(rb.Ribbon(15.0, 1.0, 0.1), growth, start=rb.Closed(link=link), law=law)
+    diagram = rb.trace(scene, parameter, (-most, most), depth=0)
+    (branch,) = diagram.branches
+    assert branch.ended == ("start", "span")
+    assert np.all(np.diff(branch.parameter) > 0.0)
+    first, last = (state.strains for state in (branch.state(0), branch.state(-1)))
+    # what glides goes round the whole range of its curvatures
+    assert np.abs(last[0, 1:] - first[0, 1:]).max() < 0.5 * np.ptp(first[:, 1:], axis=0).max() + 0.05

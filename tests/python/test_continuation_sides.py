@@ -197,7 +197,7 @@ GROWTHS = {
 @pytest.mark.parametrize("link", [0, 1])
 @pytest.mark.parametrize("name", GROWTHS)
 def test_closed_ribbons_do_not_glide_as_they_grow(name: str, link: int, law: str) -> None:
-    # A twisted ring bends more in some places than in others, and any of them may be where it is clamped to itself.
+    # A twisted ring bends more in some places than in others, and is clamped to itself at any of them.
     growth, parameter, most = GROWTHS[name]
     scene = rb.Scene(rb.Ribbon(15.0, 1.0, 0.1), growth, start=rb.Closed(link=link), law=law)
     diagram = rb.trace(scene, parameter, (-most, most), depth=0)

@@ -200,6 +200,9 @@ impl System {
     /// The same where so many motions change nothing, or as many as do: what is mapped to nothing are these and the line of solutions.
     #[must_use]
     pub fn bordered_but_for(&self, by_parameter: &Residual, motions: Option<usize>) -> Bordered {
+        if self.sparse.is_some() {
+            return Bordered(Kind::Sparse(self.correction_of(by_parameter)));
+        }
         let rhs = self.reduced(by_parameter);
         let matrix = self.with_parameter(&rhs);
         let mut sizes = self.chain.sizes();

@@ -17,6 +17,8 @@ const SHORTENED: f64 = 0.3;
 const MEMORY: usize = 4;
 /// Steps after which the mesh is looked at.
 const CHECKED: usize = 4;
+/// Change of the parameter along a branch, of its arclength, above which a point may be corrected at its value.
+const STEEP: f64 = 1e-2;
 /// Looks at a mesh in a row that may be postponed.
 const MOST_POSTPONED: usize = 3;
 /// Meshes of a branch that are too many.
@@ -350,7 +352,7 @@ impl<'a, E: Equations> Walk<'a, E> {
         let (x, along) = equations.remeshed(&point.x, &point.along.x, like, point.t)?;
         let along = Direction { x: along, t: point.along.t };
         // What the branch begins with is at a value of the parameter, which it keeps, unless that is at a fold.
-        let kept = self.fine.place == 0 && along.t.abs() > 0.1;
+        let kept = self.fine.place == 0 && along.t.abs() > STEEP;
         let across = if kept { None } else { Some(&along) };
         let guess = Guess { x, t: point.t, across, sense: Some(&along) };
         let singular = self.singular && self.fine.place == 0;

@@ -58,6 +58,8 @@ pub struct Held {
 const DIFFERENCE: f64 = 1e-7;
 /// A distance, in the norm of changes, at which the equations are nearly the same.
 const NEAR: f64 = 2e-5;
+/// Change of the parameter along a branch, of its arclength, above which it tells the branch from motions that change nothing.
+const STEEP: f64 = 1e-4;
 /// Error that a finer mesh is made for, of the tolerance.
 const MARGIN: f64 = 0.02;
 
@@ -477,24 +479,28 @@ impl Held {
         }
     }
 
-    /// Of all that is mapped to nothing, the tangent of the branch, nearest to a direction, or to a change of the parameter, and the motions
-    /// that are left, at right angles to one another.
+    /// Of all that is mapped to nothing, the motions that do not change the parameter, and the tangent of the branch at right angles to them,
+    /// toward where a direction points. Where the parameter hardly changes along the branch that is nearest to the direction.
     fn set_apart(&mut self, lines: Vec<Line>, across: Option<&Direction<Correction>>) {
         let mut basis: Vec<Direction<Correction>> = Vec::new();
         for Line { x, t } in lines {
             basis.push(self.beside(Direction { x, t }, &basis).1);
         }
         let ahead = |line: &Direction<Correction>| across.map_or(line.t, |across| dot(self, across, line));
-        let parts: Vec<f64> = match across {
-            // At a fold the parameter does not change.
-            None if basis.len() == 1 => vec![1.0],
-            _ => basis.iter().map(ahead).collect(),
+        let steep = basis.iter().map(|line| line.t * line.t).sum::<f64>().sqrt();
+        let parts: Vec<f64> = if basis.len() == 1 {
+            vec![1.0]
+        } else if steep > STEEP {
+            basis.iter().map(|line| line.t).collect()
+        } else {
+            basis.iter().map(ahead).collect()
         };
         let mut sum = scaled(self, &basis[0], parts[0]);
         for (part, line) in parts.iter().zip(&basis).skip(1) {
             sum = plus(self, &sum, *part, line);
         }
         let tangent = unit(self, &sum);
+        let tangent = scaled(self, &tangent, ahead(&tangent).signum());
         let mut apart = vec![tangent.clone()];
         while apart.len() < basis.len() {
             // What is farthest from those known.

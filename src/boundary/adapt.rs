@@ -3,7 +3,7 @@
 //! Two half steps from a node, less the whole one, are the defect of an element but for terms of higher order; what
 //! the factorised equations make of all defects is the global error, with its sign, at every node.
 
-use super::ends::{At, half_angle};
+use super::ends::{At, Units, half_angle};
 use super::gauss::Gauss;
 use super::iterate::{Correction, Iterate, strain_size};
 use super::mesh::Mesh;
@@ -24,6 +24,18 @@ pub struct Estimate {
     pub rates: Vec<f64>,
 }
 
+impl Estimate {
+    /// Whether all defects are those of rounding, which no finer mesh has less of.
+    #[must_use]
+    pub fn is_rounding(&self, x: &Iterate, units: &Units) -> bool {
+        let moment = |at: &At| at.force.norm() * at.position.norm() + at.about_origin.norm();
+        let largest = x.nodes.iter().map(moment).fold(0.0, f64::max) / units.moment;
+        self.defects.iter().all(|defect| *defect < ROUNDING * (1.0 + largest))
+    }
+}
+
+/// The defect of an element that is that of rounding, of positions/L and angles of size 1.
+const ROUNDING: f64 = 2e-15;
 /// The defect that stands for that of an element whose half steps cannot be solved for.
 const UNKNOWN: f64 = 1e-2;
 
@@ -139,6 +151,8 @@ const LEAST_GROWTH: f64 = 1.25;
 const GROWTH: f64 = 4.0;
 /// Lengths of decay that an element spans at most: over many a step from its start amplifies what the ends damp.
 const LONGEST_LAYER: f64 = 4.0;
+/// Elements that layers ask for at most: a force of which they would be more is none.
+const MOST_LAYERS: f64 = 20_000.0;
 /// Part of an element by which the estimates from both ends of the same one differ.
 const ALIKE: f64 = 0.25;
 /// Least density of elements, relative to its mean.
@@ -161,7 +175,8 @@ pub fn refined(mesh: &Mesh, estimate: &Estimate, tolerance: f64) -> Vec<f64> {
         .iter()
         .enumerate()
         .map(|(i, share)| {
-            let least = (LEAST_DENSITY * wanted / length).max(estimate.rates[i] / LONGEST_LAYER);
+            let layers = (estimate.rates[i] / LONGEST_LAYER).min(MOST_LAYERS / length);
+            let least = (LEAST_DENSITY * wanted / length).max(layers);
             (wanted * share / integral / mesh.length(i)).max(least)
         })
         .collect();

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::creep::crept_from;
 use super::iterate::Iterate;
-use super::known::{Guess, Known};
+use super::known::{Guess, Known, soft};
 use super::mesh::Mesh;
 use super::newton::Failed;
 use super::path::Stride;
@@ -35,8 +35,14 @@ pub fn fallen(
         let known = Known::Given(&guess);
         let nodes = problem.first_nodes(settings.first_elements as f64, first_turn(problem, &known)?);
         let mesh = Mesh::new(problem, nodes, settings.degree)?;
-        let stride =
-            Stride { step: 1.0, most: 1.0, careful: false, again: false, interrupted: settings.interrupted };
+        let stride = Stride {
+            step: 1.0,
+            most: 1.0,
+            careful: false,
+            again: false,
+            most_work: 0,
+            interrupted: settings.interrupted,
+        };
         let (mesh, reached) = followed(settings, mesh, &known, stride, spent)?;
         // Who asks to stop asks once.
         if reached.failure == Some(Failed::Interrupted) {
@@ -108,10 +114,12 @@ pub fn disturbed(mesh: &Mesh, x: &Iterate, disturbance: &Disturbance) -> Result<
     let wave = |s: f64, waves: f64| size(waves) * (waves * PI * s / length).cos();
     let twisted = Known::Twisted(0.0);
     let straight = twisted.strains(&mesh.problem)?;
+    let soft = soft(&mesh.problem.law.at(0.0)?.compliance);
     let strain = |i: usize, y: f64| {
         let s = mesh.nodes[i] + y * mesh.length(i);
         let base = if disturbance.of_straight { straight(s) } else { x.strain(mesh, i, y) };
-        base + Strain::new(0.0, 0.0, wave(s, disturbance.bend), wave(s, disturbance.twist))
+        let [bend, twist] = [disturbance.bend, disturbance.twist].map(|waves| wave(s, waves));
+        base + Strain::new(0.0, bend, bend, twist).component_mul(&soft)
     };
     let mut stepper = Stepper::new(&mesh.problem, mesh.gauss)?;
     let (mut s, mut strains, mut states) = (vec![0.0], vec![strain(0, 0.0)], vec![x.nodes[0]]);

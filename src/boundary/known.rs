@@ -132,7 +132,7 @@ impl Guess {
 }
 
 /// A slight bend and twist that favours no symmetry, positive on the whole: a rotation of [`IMPERFECTION`] over the
-/// ribbon, but no curvature that is large against those at which a thin section changes its shape.
+/// ribbon, but no curvature that is large against those at which a thin section changes its shape, and none that is stiff.
 fn imperfection(problem: &Problem, natural: &Strain) -> Result<impl Fn(f64) -> Strain + use<>, InvalidInput> {
     let length = problem.length;
     let compliance = problem.law.at(0.0)?.compliance;
@@ -141,14 +141,25 @@ fn imperfection(problem: &Problem, natural: &Strain) -> Result<impl Fn(f64) -> S
     let curved = natural.rows(2, 2).amax() > 1e-3 * eta;
     let largest = eta * if curved { SLIGHT_IF_CURVED } else { SLIGHT };
     let size = (IMPERFECTION / length).min(largest);
+    let soft = soft(&compliance);
     let clamped = problem.ends.iter().all(|end| end.hold.holds_rotation());
     Ok(move |s: f64| {
         let x = s / length;
         // Like the first buckle of such ends: both ways between clamps, else one way.
         let bend = if clamped { 0.3 + 0.2 * x - (2.0 * PI * x).cos() } else { 1.0 + 0.2 * x };
         let twist = 0.25 * (1.0 - 0.3 * x + (PI * x).cos());
-        Strain::new(0.0, 0.0, bend, twist) * size
+        Strain::new(0.0, bend, bend, twist).component_mul(&soft) * size
     })
+}
+
+/// How much of a bend, either way, and of a twist is not stiff: all of that about `d2` and of the twist, if that is not much stiffer. What is
+/// as easy about `d2` is not bent about `d1`.
+#[must_use]
+pub fn soft(compliance: &Strain) -> Strain {
+    let softest = compliance.rows(1, 3).max();
+    let share = compliance.map(|compliance| (compliance / (STIFF * softest)).min(1.0));
+    let across = share[1] * (1.0 - compliance[2] / compliance[1]).max(0.0);
+    Strain::new(0.0, across, share[2], share[3])
 }
 
 /// Curvature of an imperfection at most, over the thickness ratio: of a flat shape, and of one that has no symmetry
@@ -156,6 +167,8 @@ fn imperfection(problem: &Problem, natural: &Strain) -> Result<impl Fn(f64) -> S
 const SLIGHT: f64 = 0.3;
 const SLIGHT_IF_CURVED: f64 = 0.02;
 
+/// A compliance that is stiff, of the softest.
+const STIFF: f64 = 0.1;
 /// Rotation over the whole ribbon that an imperfection of size 1 is of.
 const IMPERFECTION: f64 = 0.2;
 

@@ -46,6 +46,9 @@ pub enum Failed {
     /// Asked to stop.
     #[error("interrupted")]
     Interrupted,
+    /// Too much work.
+    #[error("the way there is too long, {0:.2} of it are gone")]
+    Far(f64),
     /// Too many steps.
     #[error("the ribbon does not come to rest in {0} steps of creeping")]
     Restless(usize),

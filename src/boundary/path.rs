@@ -17,6 +17,7 @@ use super::known::{Known, slerp};
 use super::mesh::Mesh;
 use super::newton::{Control, Failed, newton};
 use super::problem::{Problem, turned};
+use super::solve::work;
 use super::system::{Failure, System, Targets};
 use crate::InvalidInput;
 use crate::section::Strain;
@@ -207,8 +208,8 @@ impl Path {
         }
         let control = Control { tolerance: 1e-6, iterations: 25, least_step: 1e-2 };
         while reached.fraction < 1.0 || stride.again {
-            if stride.interrupted.is_some_and(|asks| asks()) {
-                reached.failure = Some(Failed::Interrupted);
+            if let Some(failure) = stride.ends(system, reached.fraction) {
+                reached.failure = Some(failure);
                 return Ok(Stop::Failed);
             }
             let ahead = if stride.again { 0.0 } else { stride.step };
@@ -241,7 +242,7 @@ impl Path {
             };
             stride.step = 0.25 * (t - reached.fraction);
             if stride.step < FOLD_STEP && stride.careful && reached.fraction > 0.0 {
-                return Ok(self.past_folds(system, reached, failure));
+                return Ok(self.past_folds(system, reached, stride, failure));
             }
             if stride.step < LEAST_STEP || reached.steps >= MOST_STEPS {
                 reached.norms = ended.norms;
@@ -253,7 +254,13 @@ impl Path {
     }
 
     /// Goes on along the arclength of the way, forth and back in `t`, until `t` is 1.
-    fn past_folds(&self, system: &mut System, reached: &mut Reached, failure: Failed) -> Stop {
+    fn past_folds(
+        &self,
+        system: &mut System,
+        reached: &mut Reached,
+        stride: &Stride,
+        failure: Failed,
+    ) -> Stop {
         let control = Control { tolerance: 1e-6, iterations: 12, least_step: 1e-1 };
         let goal = self.targets(&system.mesh.problem, 1.0);
         reached.failure = Some(failure);
@@ -261,6 +268,10 @@ impl Path {
         let Ok(mut point) = Point::new(self, system, x, t, None) else { return Stop::Failed };
         let mut length = 0.05;
         for _ in 0..MOST_STEPS {
+            if let Some(failure) = stride.ends(system, reached.fraction) {
+                reached.failure = Some(failure);
+                break;
+            }
             // What is ahead within a step may be reached at once.
             if point.ahead() > 0.0 && point.t + length * point.ahead() >= 1.0 {
                 let start = point.extrapolated(1.0, system);
@@ -314,8 +325,23 @@ pub struct Stride {
     pub careful: bool,
     /// Whether the place that was reached is solved for once more, on a new mesh.
     pub again: bool,
+    /// Factorised elements that are too many.
+    pub most_work: usize,
     /// Asked before each step whether to stop.
     pub interrupted: Option<fn() -> bool>,
+}
+
+impl Stride {
+    /// Why no other step is made from this fraction of the way, if none is.
+    fn ends(&self, system: &System, fraction: f64) -> Option<Failed> {
+        if self.interrupted.is_some_and(|asks| asks()) {
+            Some(Failed::Interrupted)
+        } else if work(system) >= self.most_work {
+            Some(Failed::Far(fraction))
+        } else {
+            None
+        }
+    }
 }
 
 /// Why the way is not gone on.

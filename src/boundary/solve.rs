@@ -184,6 +184,7 @@ pub fn solve(
                 most,
                 careful: attempt.gait == Gait::Careful,
                 again: false,
+                most_work: 0,
                 interrupted: settings.interrupted,
             };
             followed(settings, mesh, &known, stride, &mut spent)?
@@ -239,6 +240,7 @@ pub fn followed(
     let mut reached = Reached::start(&path);
     loop {
         let mut system = new_system(mesh, settings)?;
+        stride.most_work = spent.left().max(LEAST_WORK);
         let stop = path.follow(&mut system, &mut reached, &mut stride)?;
         spent.factorised(&system);
         spent.meshes += 1;
@@ -262,6 +264,10 @@ pub fn followed(
 /// Factorised elements of an attempt, and of all, that are too many: some four and seven seconds.
 const MOST_WORK: usize = 250_000;
 const MOST_WORK_OF_ALL: usize = 370_000;
+/// What a way on one mesh may take anyway.
+const LEAST_WORK: usize = 20_000;
+/// How many condensed factorisations a sparse one takes as long as.
+const SPARSE: usize = 10;
 /// Factorisations that a finer mesh takes at least.
 const FEWEST: usize = 4;
 /// Error that a mesh on a careful way is made for.
@@ -283,10 +289,11 @@ pub struct Spent {
     pub allowed: usize,
 }
 
-/// Factorised elements, those whose sections differ counted as a quarter more, for what it takes to make these.
+/// Factorised elements, those whose sections differ counted as a quarter more, for what it takes to make these, and sparse factors as many more.
 #[must_use]
 pub fn work(system: &System) -> usize {
-    let elements = system.factorisations * system.mesh.elements();
+    let factorisations = system.factorisations + (SPARSE - 1) * system.sparse_factorisations;
+    let elements = factorisations * system.mesh.elements();
     if system.mesh.problem.law.varies() { elements + elements / 4 } else { elements }
 }
 

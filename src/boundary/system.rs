@@ -59,6 +59,8 @@ pub struct System {
     pub holds_gliding: bool,
     /// How often the Jacobian was factorised.
     pub factorisations: usize,
+    /// How often of those by one sparse matrix.
+    pub sparse_factorisations: usize,
     /// How long that took.
     pub factorising: Duration,
     /// Of the stages where the equations were linearised.
@@ -104,6 +106,8 @@ enum Pass {
 
 /// Relative pivots below this are singular.
 const SINGULAR: f64 = 1e-15;
+/// Elements whose equations are not factorised as a whole: that takes a second, and stages of short elements are singular where forces are none.
+const MOST_SPARSE: usize = 5000;
 
 /// Why the equations cannot be solved where they are.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -153,6 +157,7 @@ impl System {
             load: Vec::new(),
             holds_gliding: true,
             factorisations: 0,
+            sparse_factorisations: 0,
             factorising: Duration::ZERO,
             sections: Sections::default(),
         })
@@ -235,7 +240,9 @@ impl System {
         self.factorisations += 1;
         self.sparse = None;
         match self.pass(x, targets, Pass::Condensed) {
-            Err(Failure::SingularStages(_)) => self.linearise_sparsely(x, targets),
+            Err(Failure::SingularStages(_)) if self.mesh.elements() <= MOST_SPARSE => {
+                self.linearise_sparsely(x, targets)
+            }
             done => done,
         }
     }
@@ -247,6 +254,7 @@ impl System {
     pub fn linearise_sparsely(&mut self, x: &Iterate, targets: &Targets) -> Result<(), Failure> {
         let (n, m) = (self.layout.states().len(), self.layout.constants().len());
         let strains = 4 * self.mesh.gauss.degree;
+        self.sparse_factorisations += 1;
         self.border = None;
         self.sparse = Some(Sparse::new(n, m, strains, self.mesh.elements()));
         self.pass(x, targets, Pass::Sparse)?;

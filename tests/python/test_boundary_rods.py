@@ -8,6 +8,7 @@ import pytest
 import ribbonrs as rb
 from held import AXES, in_space, largest, matrices, rod, strip, turn
 from scipy.optimize import brentq
+from scipy.special import ellipe, ellipk
 
 CLOSE = 1e-11
 """Ten times the tolerance of the solver, 1e-12: of positions over the length, angles, curvatures times it."""
@@ -300,3 +301,43 @@ def test_guesses_keep_their_turns(turns):
     again = rb.solve(scene, guess=state)
     for found in (state, again):
         np.testing.assert_allclose(found.strains[:, 3], twist, rtol=1e-10)
+
+
+# --- rods that are far stiffer across than along: what is plane to a user
+
+
+PLANE = {
+    "stiffer": (1e5, 1e4),
+    "much stiffer": (1e6, 1e3),
+    "nearly rigid": (1e8, 1e8),
+    "rigid across": (math.inf, 1e4),
+    "rigid but for bending": (math.inf, math.inf),
+}
+
+
+@pytest.mark.parametrize("distance", [0.9, 0.5])
+@pytest.mark.parametrize("ends", ["hinged", "clamped"])
+@pytest.mark.parametrize("name", PLANE)
+def test_plane_elastica_of_rods_that_are_stiff_across(name, ends, distance):
+    EI1, GJ = PLANE[name]
+    law = rb.LinearLaw(EI1=EI1, EI2=1.0, GJ=GJ, inextensible=True)
+    place = (0.0, 0.0, distance)
+    if ends == "hinged":
+        scene = rod(law=law, start=rb.Hinged(2), end=rb.Hinged(2, position=place))
+    else:
+        scene = rod(law=law, end=rb.Clamped(position=place))
+    state = rb.solve(scene)
+    # half a wave between hinges, one between clamps: distance = 2 E(m)/K(m) - 1, force (2 K(m))^2 of a half
+    m = brentq(lambda m: 2.0 * ellipe(m) / ellipk(m) - 1.0 - distance, 1e-6, 0.999, xtol=1e-14)
+    force = (2.0 * ellipk(m)) ** 2 * (4.0 if ends == "clamped" else 1.0)
+    assert state.stable
+    # tol = 1e-10 of the shape, the force is of the size of 10 to 50
+    assert -state.reactions.end.force[2] == pytest.approx(force, rel=1e-10)
+    assert abs(state.position[:, 1]).max() < 1e-10
+
+
+def test_a_rod_that_only_twists_is_not_shortened():
+    # With no way to bend there is no equilibrium, which is told soon, and in little memory.
+    law = rb.LinearLaw(EI1=math.inf, EI2=math.inf, GJ=1.0, inextensible=True)
+    with pytest.raises(rb.ConvergenceError):
+        rb.solve(rod(law=law, end=rb.Hinged(2, position=(0.0, 0.0, 0.5))))

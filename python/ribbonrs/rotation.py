@@ -17,6 +17,7 @@ IDENTITY: Quaternion = (1.0, 0.0, 0.0, 0.0)
 """The orientation of the ungrown ribbon."""
 
 _UNIT_TOLERANCE = 1e-8  # a quaternion typed with nine digits passes, a wrong one does not
+_ROUNDING = 1e-15  # what is a unit to rounding stays as it is, to the last bit
 
 
 def rotation_of(field: str, value: Numbers | None) -> Quaternion | None:
@@ -27,6 +28,7 @@ def rotation_of(field: str, value: Numbers | None) -> Quaternion | None:
     entries = numbers(field, value, expected)
     norm = math.hypot(*entries)
     if len(entries) == 4 and abs(norm - 1.0) <= _UNIT_TOLERANCE:
+        norm = 1.0 if abs(norm - 1.0) <= _ROUNDING else norm
         q0, q1, q2, q3 = (entry / norm for entry in entries)
         return q0, q1, q2, q3
     if len(entries) == 3 and math.isfinite(norm):

@@ -3,6 +3,7 @@
 use super::correct::{Corrected, EXACTLY, Guess, Point, PointOf, corrected, reversed};
 use super::equations::{Equations, Failed, unit};
 use super::switch::Off;
+use super::value::at_value;
 
 /// How far a branch is followed, and how well.
 #[derive(Clone, Debug)]
@@ -187,16 +188,25 @@ pub fn is_closed<E: Equations>(equations: &mut E, branch: &BranchOf<E>, last: us
     }
     // Where the branch has the parameter of its first point.
     let part = (first.t - a.t) / (b.t - a.t);
-    let apart = |numbers: [Vec<f64>; 3]| {
-        let [here, from, to] = numbers;
-        let size = here.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
-        let there = from.iter().zip(&to).map(|(a, b)| a + part * (b - a));
-        here.iter().zip(there).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) / size
-    };
     let points = [first, a, b];
-    apart(points.map(|point| equations.coordinates(&point.x, point.t))) < CLOSED
-        && apart(points.map(|point| equations.invariants(&point.x, point.t))) < CLOSED
+    let [coordinates, invariants] = [E::coordinates, E::invariants]
+        .map(|numbers| points.map(|point| numbers(equations, &point.x, point.t)));
+    let near = [&coordinates, &invariants].into_iter().all(|[here, from, to]| {
+        let there: Vec<f64> = from.iter().zip(to).map(|(a, b)| a + part * (b - a)).collect();
+        apart(here, &there) < NEARLY_CLOSED
+    });
+    near && at_value(equations, a, b, first.t).is_some_and(|there| {
+        apart(&coordinates[0], &equations.coordinates(&there.x, there.t)) < CLOSED
+            && apart(&invariants[0], &equations.invariants(&there.x, there.t)) < CLOSED
+    })
 }
 
-/// Relative difference of what a closed branch comes back to, by linear interpolation.
-const CLOSED: f64 = 0.02;
+/// The largest difference of numbers, relative to the largest of the first or one.
+fn apart(here: &[f64], there: &[f64]) -> f64 {
+    let size = here.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
+    here.iter().zip(there).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) / size
+}
+
+/// Difference of what a closed branch comes back to, and of what lies between two points of it, by linear interpolation.
+const CLOSED: f64 = 1e-4;
+const NEARLY_CLOSED: f64 = 0.3;

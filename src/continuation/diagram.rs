@@ -228,12 +228,18 @@ fn note<E: Equations>(equations: &mut E, branch: &BranchOf<E>, met: &mut Vec<Met
     if branch.origin.is_some() {
         places.push(0);
     }
+    let mut own: Vec<Vec<f64>> = Vec::new();
     for place in places {
         let here = numbers(equations, &branch.points[place]);
+        // It may pass it more than once: as its mirror image, or round and round.
+        if own.iter().any(|known| alike(known, &here)) {
+            continue;
+        }
         match met.iter_mut().find(|met| alike(&met.numbers, &here)) {
             Some(known) => known.branches += 1,
-            None => met.push(Met { numbers: here, branches: 1 }),
+            None => met.push(Met { numbers: here.clone(), branches: 1 }),
         }
+        own.push(here);
     }
 }
 

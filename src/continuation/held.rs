@@ -10,8 +10,8 @@ use super::held_state::HeldState;
 use super::locus::Plane;
 use crate::InvalidInput;
 use crate::boundary::{
-    Bordered, Correction, Defects, Failure, Family, Layout, Line, Problem, System, Units, defects, goal,
-    transferred,
+    Bordered, Correction, Defects, Failure, Family, Hold, Layout, Line, Problem, System, Units, defects,
+    goal, transferred,
 };
 
 /// How long the parts of the work took, but for the rest.
@@ -60,6 +60,8 @@ const DIFFERENCE: f64 = 1e-7;
 const NEAR: f64 = 2e-5;
 /// Change of the parameter along a branch, of its arclength, above which it tells the branch from motions that change nothing.
 const STEEP: f64 = 1e-4;
+/// Error that may be that of rounding.
+const LARGEST_ROUNDING: f64 = 1e-7;
 /// Error that a finer mesh is made for, of the tolerance.
 const MARGIN: f64 = 0.02;
 
@@ -317,22 +319,30 @@ impl Equations for Held {
         let Some(system) = &self.system else { return Vec::new() };
         let length = self.family.length(self.in_order(t));
         let weights = &system.mesh.gauss.weights;
-        let mut sums = vec![0.0; 4];
+        // Means of squares, and those weighted toward both ends, which tell one shifted along the ribbon apart; a closed ribbon has none.
+        let closed = system.mesh.problem.ends[1].hold == Hold::Closed;
+        let (mut sums, mut outside) = ([0.0; 4], [0.0; 4]);
         for (i, pair) in x.nodes.windows(2).enumerate() {
             let strains = &x.x.strains[i * self.degree..(i + 1) * self.degree];
-            for (strain, weight) in strains.iter().zip(weights) {
+            let h = pair[1] - pair[0];
+            for ((strain, weight), c) in strains.iter().zip(weights).zip(&system.mesh.gauss.nodes) {
+                let from_middle = if closed { 0.0 } else { 2.0 * (pair[0] + c * h) - 1.0 };
                 for k in 0..4 {
                     let scale = if k == 0 { 1.0 } else { length };
-                    sums[k] += (pair[1] - pair[0]) * weight * (scale * strain[k]).powi(2);
+                    let part = h * weight * (scale * strain[k]).powi(2);
+                    sums[k] += part;
+                    outside[k] += part * from_middle.powi(2);
                 }
             }
         }
         // A rod that is the same in all directions may be turned by any angle.
         if self.family.isotropic() {
-            sums[1] += sums[2];
-            sums[2] = 0.0;
+            for sums in [&mut sums, &mut outside] {
+                sums[1] += sums[2];
+                sums[2] = 0.0;
+            }
         }
-        sums
+        [sums, outside].concat()
     }
 
     fn refined(
@@ -355,7 +365,8 @@ impl Equations for Held {
         let system = self.system(x, t)?;
         let mut estimated = defects.estimate(&error.x, &system.mesh.problem);
         estimated.error = estimated.error.max(error.t.abs());
-        if estimated.error <= tolerance.min(most) {
+        let rounding = estimated.error < LARGEST_ROUNDING && estimated.is_rounding(&x.x, &system.units);
+        if estimated.error <= tolerance.min(most) || rounding {
             return Ok(None);
         }
         x.refined(&system.mesh, &estimated, (MARGIN * tolerance).min(0.5 * most)).map(Some)

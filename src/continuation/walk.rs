@@ -312,7 +312,7 @@ impl<'a, E: Equations> Walk<'a, E> {
     fn shorten(&mut self, failed: Failed) -> Result<(), Ended> {
         self.step *= SHORTENED;
         self.memory.drain(..self.memory.len().saturating_sub(2));
-        if self.step < SHORTEST || matches!(failed, Failed::Refused(_)) {
+        if self.step < SHORTEST {
             return Err(self.ended_by(failed));
         }
         Ok(())

@@ -210,7 +210,7 @@ def test_closed_ribbons_do_not_glide_as_they_grow(name: str, link: int, law: str
 
 
 def test_closed_branch_passes_through_the_ring_turned_inside_out() -> None:
-    # The branch lies among its own images that glide: what leads to the ring must not pass beside it among them.
+    # The branch lies among its own images that glide: what leads to the ring must not pass beside it.
     rod = rb.LinearLaw(EI1=100.0, EI2=1.0, GJ=1.0, inextensible=True, intrinsic=(0.0, 0.0, 0.0, 2.6))
     scene = rb.Scene(rb.Ribbon(1.0, 1.0, 0.1), law=rod, start=rb.Closed(link=1.0))
     diagram = rb.trace(scene, "law.intrinsic[2]", (-15.0, 15.0), depth=1)
@@ -218,7 +218,7 @@ def test_closed_branch_passes_through_the_ring_turned_inside_out() -> None:
     assert branch.ended == ("branch point", "joined")
     (leaves,) = (p.parameter for p in diagram.special_points if p.kind == "branch_point" and p.branch == 0)
     met = [p.parameter for p in diagram.special_points if p.kind == "branch_point" and p.branch == 1]
-    # turned inside out, natural curvature counts the other way; next to the ring the parameter changes with the square
-    # of what is located
+    # turned inside out, natural curvature counts the other way; next to the ring the parameter changes with
+    # the square of what is located
     assert met == pytest.approx([-leaves, leaves], abs=1e-6)
     assert ring.ended == ("start", "span")

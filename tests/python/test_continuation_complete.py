@@ -1,0 +1,106 @@
+"""Branches that are easily lost: met twice by one, alike but shifted, limited by rounding, past long steps."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import ribbonrs as rb
+from continued import places
+from held import rod
+from scipy.integrate import quad
+from scipy.optimize import fsolve
+from scipy.spatial.transform import Rotation
+
+
+def test_branch_point_that_a_closed_branch_meets_twice() -> None:
+    # A ring whose sections are turned by theta: K1 = 2 pi sin(theta), K2 = 2 pi cos(theta) with natural K1
+    # k = 2 pi (1 - EI2/EI1) sin(theta), and K1 = 2 pi, K2 = 0 for all k, which meets that at sin(theta) = 1.
+    EI1 = 1.7
+    law = rb.LinearLaw(EI1=EI1, EI2=1.0, GJ=0.8, inextensible=True)
+    scene = rod(law=law, start=rb.Closed())
+    diagram = rb.trace(scene, "law.intrinsic[1]", (-9.0, 9.0), start=rb.solve(scene), depth=1)
+    assert diagram.branches[0].ended == ("start", "closed")
+    assert len(places(diagram, "branch_point", 0)) == 2
+    meets = 2.0 * math.pi * (1.0 - 1.0 / EI1)
+    # exact but for the square of the place at which it is located, 1e-4
+    np.testing.assert_allclose(np.abs(places(diagram, "branch_point", 0)), meets, rtol=1e-8)
+    (ring,) = (state for state in diagram.states_at(5.0) if state.stable)
+    np.testing.assert_allclose(np.abs(ring.strains[:, 1]), 2.0 * math.pi, rtol=1e-10)
+
+
+def test_halves_that_differ_by_a_shift_along_the_rod_are_two_branches() -> None:
+    # Strains of one half are those of the other half a period on, with K1 reversed: all their means agree,
+    # but the clamps are elsewhere on the wave, and the index differs.
+    def scene(rotation: tuple[float, ...]) -> rb.Scene:
+        law = rb.LinearLaw(EI1=1.3, EI2=1.0, GJ=0.4, inextensible=True, intrinsic=(0.0, 0.0, -5.0, 0.0))
+        start = rb.Clamped(rotation=rotation)
+        d3 = Rotation.from_quat(np.roll(rotation, -1)).as_matrix()[:, 2]
+        place = tuple(0.5640896051323029 * d3)
+        return rod(law=law, start=start, end=rb.Clamped(position=place, rotation=rotation))
+
+    for rotation in ((1.0, 0.0, 0.0, 0.0), (0.5, 0.5, -0.5, 0.5), (0.8, 0.0, 0.36, 0.48)):
+        turned = scene(rotation)
+        diagram = rb.trace(turned, "law.intrinsic[2]", (-5.0, 5.0), start=rb.solve(turned), depth=1)
+        halves = [state for state in diagram.states_at(-2.0) if abs(state.energy - 22.08576423) < 1e-6]
+        assert {state.index for state in halves} == {1.0, 2.0}
+
+
+def loop(distance: float, guess: list[float]) -> tuple[list[float], float, float]:
+    """One turn between clamps, theta' = sqrt(k0^2 + 4 N sin^2(theta/2)): (log k0, log N), energy, force."""
+
+    def rate(theta: float, k0: float, N: float) -> float:
+        return math.sqrt(k0 * k0 + 4.0 * N * math.sin(theta / 2.0) ** 2)
+
+    def integral(weigh: object, k0: float, N: float) -> float:
+        how = {"epsabs": 1e-13, "epsrel": 1e-12, "limit": 400}
+        return 2.0 * quad(lambda theta: weigh(theta, rate(theta, k0, N)), 0.0, math.pi, **how)[0]
+
+    def misses(p: list[float]) -> list[float]:
+        k0, N = np.exp(p)
+        length = integral(lambda _, r: 1.0 / r, k0, N)
+        return [length - 1.0, integral(lambda theta, r: math.cos(theta) / r, k0, N) - distance]
+
+    found = fsolve(misses, guess, xtol=1e-13)
+    k0, N = np.exp(found)
+    return found, 0.5 * integral(lambda _, r: r, k0, N), N
+
+
+def test_a_loop_is_followed_where_rounding_limits_every_mesh() -> None:
+    # The loop may slide along the rod, more softly the tighter it is: rounding, amplified by that, is above
+    # tol from 0.7 on.
+    law = rb.LinearLaw(EI1=3.0, EI2=1.0, GJ=1.5, inextensible=True)
+    scene = rod(law=law, end=rb.Clamped(position=(0.0, 0.0, 0.3)))
+    start = rb.solve(scene, guess=np.array([0.0, 0.0, 2.0 * math.pi, 0.0]))
+    diagram = rb.trace(scene, "end.position[2]", (0.3, 0.78), start=start, depth=0)
+    assert diagram.branches[0].ended == ("start", "span")
+    guess = [0.0, 4.0]
+    for distance in (0.4, 0.5, 0.6, 0.7, 0.74, 0.77):
+        guess, energy, force = loop(distance, guess)
+        (state,) = diagram.states_at(distance)
+        # that the loop slides costs no energy: of the square of it
+        assert state.energy == pytest.approx(energy, rel=1e-9)
+        assert state.reactions.end.force[2] == pytest.approx(force, rel=1e-7)
+
+
+def test_clamps_turned_to_the_last_bit_are_the_same() -> None:
+    # A quaternion of this vector has a norm of 1 but for rounding, and is the same if it is given anew.
+    rotation = (0.11998518245746842, 0.4923802043326623, 0.12653434343498401)
+    end = rb.Clamped(position=(0.0, 0.0, 0.95), rotation=rotation)
+    assert rb.Clamped(rotation=end.rotation).rotation == end.rotation
+    scene = rod(law=rb.LinearLaw(EI1=3.0, EI2=1.0, GJ=1.0, inextensible=True), end=end)
+    assert rb.trace(scene, "end.twist_turns", (0.0, 0.05), depth=0).branches[0].ended == ("start", "span")
+
+
+def test_steps_beyond_where_a_ribbon_can_be_are_shortened() -> None:
+    # Along its thickness a step may lead where there is none.
+    growth = rb.growth.edge(0.024)
+    scene = rb.Scene(rb.Ribbon(10.0, 1.0, 0.05), growth)
+    diagram = rb.trace(scene, "ribbon.thickness", (0.02, 0.3), depth=4)
+    assert all("failed" not in branch.ended for branch in diagram.branches)
+    for thickness in (0.025, 0.05, 0.1, 0.2):
+        ribbon = rb.Ribbon(10.0, 1.0, thickness)
+        known = {tuple(abs(shape.strains[0, 1:]).round(9)) for shape in rb.natural_shapes(ribbon, growth)}
+        traced = {tuple(abs(state.strains[0, 1:]).round(9)) for state in diagram.states_at(thickness)}
+        assert traced == known

@@ -1,4 +1,4 @@
-"""Branches that are easily lost: met twice by one, alike but shifted, limited by rounding, past long steps."""
+"""Branches that are easily lost: met twice by one, alike but shifted, limited by rounding, past a step."""
 
 from __future__ import annotations
 

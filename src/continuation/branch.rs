@@ -209,4 +209,4 @@ fn apart(here: &[f64], there: &[f64]) -> f64 {
 
 /// Difference of what a closed branch comes back to, and of what lies between two points of it, by linear interpolation.
 const CLOSED: f64 = 1e-4;
-const NEARLY_CLOSED: f64 = 0.3;
+const NEARLY_CLOSED: f64 = 0.05;

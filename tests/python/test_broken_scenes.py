@@ -366,25 +366,25 @@ def test_extreme_loads(content):
     check(content)
 
 
-@settings(max_examples=2000)
+@settings(max_examples=1000)
 @given(mutated())
 def test_mutated_scenes(content):
     check(content)
 
 
-@settings(max_examples=1000)
+@settings(max_examples=600)
 @given(extreme())
 def test_extreme_numbers(content):
     check(content)
 
 
-@settings(max_examples=500)
+@settings(max_examples=250)
 @given(sound())
 def test_sound_scenes_run(content):
     assert check(content) == 0
 
 
-@settings(max_examples=1000)
+@settings(max_examples=500)
 @given(garbled())
 def test_garbled_text(content):
     check(content)

@@ -105,10 +105,10 @@ def disagreement(fields: dict[str, list[float]], stiffness: tuple[float, ...], e
 @pytest.mark.parametrize(
     ("kind", "count", "seed"),
     [
-        ("edge", 700, 10),
+        ("edge", 350, 10),
         ("thickness", 300, 20),
-        ("mixture", 400, 30),
-        ("profile", 600, 40),
+        ("mixture", 250, 30),
+        ("profile", 400, 40),
     ],
 )
 def test_all_shapes_are_found(kind: str, count: int, seed: int) -> None:

@@ -14,6 +14,9 @@ type Vector = Vector3<f64>;
 /// Sections that are kept; beyond, those of a ribbon that varies are made when needed.
 const KEPT_STAGES: usize = 20_000;
 
+/// Distance of a node from a break, over the length, that is none.
+const ROUNDING: f64 = 1e-14;
+
 /// The elements of a problem, with its law and loads at their stages.
 #[derive(Clone)]
 pub struct Mesh {
@@ -40,9 +43,23 @@ impl Mesh {
         let (points, responses, load) = (Vec::new(), Vec::new(), Vec::new());
         let mut mesh =
             Self { problem: Arc::clone(problem), gauss: Gauss::of(degree), nodes, points, responses, load };
+        mesh.meet_breaks();
         mesh.take_law()?;
         mesh.take_loads();
         Ok(mesh)
+    }
+
+    /// Moves nodes that differ from breaks by rounding, as those do that were scaled, to where these are.
+    fn meet_breaks(&mut self) {
+        let breaks = self.problem.breaks();
+        for &place in &breaks[1..breaks.len() - 1] {
+            let next = self.nodes.partition_point(|&s| s < place).min(self.nodes.len() - 1);
+            let apart = |node: usize| (self.nodes[node] - place).abs();
+            let nearest = if next > 0 && apart(next - 1) < apart(next) { next - 1 } else { next };
+            if apart(nearest) < ROUNDING * self.problem.length {
+                self.nodes[nearest] = place;
+            }
+        }
     }
 
     fn take_law(&mut self) -> Result<(), InvalidInput> {
@@ -86,6 +103,7 @@ impl Mesh {
             let factor = problem.length / before.length;
             self.nodes.iter_mut().for_each(|s| *s = (*s * factor).min(problem.length));
             self.nodes.last_mut().into_iter().for_each(|s| *s = problem.length);
+            self.meet_breaks();
         }
         if problem.length != before.length || !Arc::ptr_eq(&before.law, &problem.law) {
             self.take_law()?;

@@ -71,8 +71,8 @@ pub struct Natural {
     balance: Option<Balance>,
 }
 
-/// Change of the parameter by which the equations are differentiated, where they are linear in it and where not.
-const DIFFERENCE: [f64; 2] = [1e-7, 1e-3];
+/// Half the change of the parameter by which the equations are differentiated: where they are quadratic in it, as in growth, any is exact.
+const DIFFERENCE: [f64; 2] = [1e-5, 1e-3];
 
 impl Natural {
     /// The equations of a family.
@@ -164,11 +164,11 @@ impl Equations for Natural {
         across: Option<&Direction<[f64; 2]>>,
     ) -> Result<(), Failed> {
         let step = DIFFERENCE[usize::from(self.family.linear)];
-        let beside = self.beside(t + step)?;
-        let beside = balance(beside.section(), x[0], x[1]).gradient;
+        let beside = |t: f64| Ok::<_, Failed>(balance(self.beside(t)?.section(), x[0], x[1]).gradient);
+        let (before, after) = (beside(t - step)?, beside(t + step)?);
         let here = self.balance(x, t)?;
         let [kk, kq, qq] = here.hessian;
-        let slope = |i: usize| (beside[i] - here.gradient[i]) / step;
+        let slope = |i: usize| (after[i] - before[i]) / (2.0 * step);
         self.rows = [Vector3::new(kk, kq, slope(0)), Vector3::new(kq, qq, slope(1))];
         self.residual = here.gradient;
         self.balance = Some(here);

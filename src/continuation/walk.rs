@@ -83,9 +83,11 @@ struct Walk<'a, E: Equations> {
     unresolved: Option<(f64, f64)>,
 }
 
-/// A point whose mesh is fine enough: its place on the branch, the points by which the next was predicted, and the step to that.
+/// A point whose mesh is fine enough, as it was on that: its place on the branch, the points by which the next was predicted, and the step to
+/// that.
 struct Fine<E: Equations> {
     place: usize,
+    point: PointOf<E>,
     memory: Vec<PointOf<E>>,
     step: f64,
 }
@@ -116,7 +118,7 @@ impl<'a, E: Equations> Walk<'a, E> {
             motions,
             singular: false,
             step,
-            fine: Fine { place: 0, memory: memory.clone(), step },
+            fine: Fine { place: 0, point: memory[0].clone(), memory: memory.clone(), step },
             memory,
             at_end: false,
             steps: 0,
@@ -164,7 +166,8 @@ impl<'a, E: Equations> Walk<'a, E> {
         match equations.refined(&last.x, last.t, &last.along, f64::INFINITY) {
             Ok(None) => {
                 let place = self.branch.points.len() - 1;
-                self.fine = Fine { place, memory: self.memory.clone(), step: self.step };
+                let point = self.last().clone();
+                self.fine = Fine { place, point, memory: self.memory.clone(), step: self.step };
                 self.postponed = 0;
                 Ok(())
             }
@@ -178,14 +181,18 @@ impl<'a, E: Equations> Walk<'a, E> {
         }
     }
 
-    /// Drops the last points if their mesh is too coarse, back to where it was last found fine enough.
+    /// Drops the last points if their mesh is too coarse, back to where it was last found fine enough, and to the point as it was there.
     fn drop_coarse(&mut self, equations: &mut E) {
-        while self.branch.points.len() > self.fine.place + 1 {
-            let last = self.last();
-            if let Ok(None) = equations.refined(&last.x, last.t, &last.along, f64::INFINITY) {
+        let fine = |walk: &Self, equations: &mut E| {
+            let last = walk.last();
+            matches!(equations.refined(&last.x, last.t, &last.along, f64::INFINITY), Ok(None))
+        };
+        while !fine(self, equations) {
+            self.branch.points.pop();
+            if self.branch.points.len() == self.fine.place {
+                self.branch.points.push(self.fine.point.clone());
                 break;
             }
-            self.branch.points.pop();
         }
         let count = self.branch.points.len();
         self.branch.special.retain(|special| special.place < count);
@@ -253,7 +260,10 @@ impl<'a, E: Equations> Walk<'a, E> {
         let second = corrected(equations, guess, self.limits.tolerance, EXACTLY)?.point.stability;
         if second.free_motions < self.motions {
             (self.motions, self.singular) = (second.free_motions, true);
-            for first in [&mut self.branch.points[0], &mut self.memory[0], &mut self.fine.memory[0]] {
+            let fine = &mut self.fine;
+            for first in
+                [&mut self.branch.points[0], &mut self.memory[0], &mut fine.memory[0], &mut fine.point]
+            {
                 first.stability = Stability { determinant: None, ..second.clone() };
             }
         }

@@ -104,3 +104,48 @@ def test_steps_beyond_where_a_ribbon_can_be_are_shortened() -> None:
         known = {tuple(abs(shape.strains[0, 1:]).round(9)) for shape in rb.natural_shapes(ribbon, growth)}
         traced = {tuple(abs(state.strains[0, 1:]).round(9)) for state in diagram.states_at(thickness)}
         assert traced == known
+
+
+def test_point_loads_stay_where_they_are_on_meshes_of_traces() -> None:
+    # S/L times L is not S for one in fourteen of these places.
+    L, eta, P = 10.0, 0.1, 2e-7
+    for S in np.round(np.arange(1.0, 9.0, 0.1), 10).tolist():
+        scene = rb.Scene(rb.Ribbon(L, 1.0, eta), loads=[rb.PointLoad(S, force=(P, 0.0, 0.0))])
+        traced = rb.trace(scene, "loads[0].force[0]", (0.0, P), depth=0).branches[0].state(-1)
+        # the moment at the clamp is P S but for the square of the slope, P S^2/(2 EI) < 1e-2
+        assert abs(traced.reactions.start.moment[1]) == pytest.approx(P * S, rel=1e-4)
+        assert traced.energy == pytest.approx(rb.solve(scene).energy, rel=1e-9)
+
+
+def test_free_ribbons_take_few_steps_along_an_amplitude() -> None:
+    # Relaxed gradients are quadratic in growth: by their derivative steps are predicted.
+    eta = 0.002
+    profile = rb.growth.Profile(
+        gamma33=[[2.2e-5, -9.2e-5, -7.2e-5], [-1.1e-5, 7.5e-5], [-1.1e-5], [1.9e-4, -5.9e-5, -3.8e-6, -1e-4]],
+        d22=[[-2.2e-3, -3.3e-3, -6e-5, 1.5e-3], [-3.8e-3, 2.5e-3, -4.9e-3], [-2.7e-3], [-2.7e-3, 1.9e-3]],
+        d23=[[-4.9e-3, -3.8e-4, 3e-4, -3.6e-3], [2.6e-4, -2.3e-3, 6.7e-3], [-1.2e-3, 6.5e-4], [4.3e-3]],
+        breaks=(-0.3157, -0.1152, 0.3722),
+        name="profile",
+    )
+    scene = rb.Scene(rb.Ribbon(10.0, 1.0, eta), profile + rb.growth.edge(-8.65 * eta**2))
+    diagram = rb.trace(scene, "growth.profile.amplitude", (-0.34, 2.34))
+    assert all(branch.ended[1] == "span" for branch in diagram.branches)
+    assert max(branch.parameter.size for branch in diagram.branches) < 60
+    shapes = rb.natural_shapes(scene.ribbon, scene.growth)
+    assert len(diagram.states_at(1.0)) == len(shapes)
+
+
+def test_points_of_a_branch_that_fails_meet_the_tolerance() -> None:
+    eta = 0.01308589
+    growth = rb.growth.Profile(
+        gamma33=[0.35322 * eta**2, -0.51916 * eta**2, -0.09301 * eta**2],
+        d33=[0.30087 * eta, 0.36748 * eta],
+        d22=[0.94518 * eta],
+        d23=[-0.3925 * eta, -0.02606 * eta, 0.30535 * eta],
+    )
+    ribbon = rb.Ribbon(6.90947, 1.0, eta, material=rb.Isotropic(Y=3.0, nu=0.293114))
+    end = rb.Clamped(position=(0, 0, 6.8078), rotation=(0.7406, 0.08422, 0.51668), twist_turns=-0.17311)
+    scene = rb.Scene(ribbon, growth, end=end)
+    (branch,) = rb.trace(scene, "end.position[2]", (6.39326, 6.87692), depth=0).branches
+    assert branch.parameter.size > 1
+    assert all(branch.state(i).report.error <= 1e-10 for i in range(branch.parameter.size))

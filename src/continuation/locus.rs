@@ -1,11 +1,11 @@
 //! A fold, a branch point or a section instability followed as a second parameter varies: a curve in the plane of both.
 //!
-//! At each value of the second parameter the branch through the special point is found anew, a little to both sides of it, and the
-//! point located between. Where the curve is steep the two parameters change places.
+//! At each value of the second parameter the branch through the special point is found anew, a little to both sides of where the last two
+//! tell it to be, and the point located between. Where the curve is steep the two parameters change places.
 
 use super::branch::{Ended, Limits, SpecialKind};
-use super::correct::{DirectionOf, EXACTLY, Guess, PointOf, corrected};
-use super::equations::{Direction, Equations, Failed, dot};
+use super::correct::{DirectionOf, EXACTLY, Guess, PointOf, corrected, difference};
+use super::equations::{Direction, Equations, Failed, dot, scaled};
 use super::locate::{Found, special_points};
 use super::switch::across;
 
@@ -81,8 +81,9 @@ fn walked<E: Plane>(
     equations.hold(place[1], false);
     let off = direction(equations, start, kind);
     let mut here = Here::<E> { point: start.clone(), place, off, multiplicity: None };
-    // Which parameter is held, and how fast the other changes with it.
-    let (mut held, mut slope, mut sense) = (1_usize, 0.0_f64, sense);
+    // Which parameter is held, and how fast the state and the other change with it.
+    let (mut held, mut sense) = (1_usize, sense);
+    let mut rate = scaled(equations, &here.point.along, 0.0);
     let mut step = FIRST;
     for _ in 0..limits.steps {
         if limits.interrupted.is_some_and(|asks| asks()) {
@@ -94,9 +95,10 @@ fn walked<E: Plane>(
         }
         let next = (now + sense * step).clamp(0.0, 1.0);
         let moved = next - now;
-        let expected = here.place[1 - held] + slope * moved;
+        let expected = here.place[1 - held] + rate.t * moved;
         equations.hold(next, held == 0);
-        let Some((point, off, multiplicity)) = near(equations, &here, slope * moved, kind, limits) else {
+        let shift = scaled(equations, &rate, moved);
+        let Some((point, off, multiplicity)) = near(equations, &here, &shift, kind, limits) else {
             step *= 0.5;
             if step < SHORTEST {
                 return (found, Ended::Failed(Failed::Jumped));
@@ -112,7 +114,7 @@ fn walked<E: Plane>(
             continue;
         }
         if !(0.0..=1.0).contains(&point.t) {
-            return match to_end(equations, &here, held, place, kind, limits) {
+            return match to_end(equations, &here, held, (place, &rate), kind, limits) {
                 Some(last) => {
                     found.push(last);
                     (found, Ended::Span)
@@ -120,16 +122,19 @@ fn walked<E: Plane>(
                 None => (found, Ended::Failed(Failed::Jumped)),
             };
         }
-        slope = (point.t - here.place[1 - held]) / moved;
+        let change = difference(equations, &here.point, &point);
+        rate = Direction { t: point.t - here.place[1 - held], ..change };
+        rate = scaled(equations, &rate, 1.0 / moved);
         step = (step * (ERROR / error.max(1e-6)).sqrt().clamp(0.5, 2.0)).min(LONGEST);
         here = Here { point, place, off, multiplicity: Some(multiplicity) };
         found.push(Here { point: here.point.clone(), place, off: None, multiplicity: None });
-        if slope.abs() > STEEP
+        if rate.t.abs() > STEEP
             && let Some(along) = exchanged(equations, &here, held, kind)
         {
-            sense *= slope.signum();
+            sense *= rate.t.signum();
             held = 1 - held;
-            slope = 1.0 / slope;
+            // Of the state and of the parameter that was held, by the one that is.
+            rate = Direction { t: 1.0 / rate.t, ..scaled(equations, &rate, 1.0 / rate.t) };
             here.point.along = along;
             here.point.t = here.place[1 - held];
         }
@@ -142,7 +147,7 @@ fn to_end<E: Plane>(
     equations: &mut E,
     here: &Here<E>,
     held: usize,
-    beyond: [f64; 2],
+    (beyond, rate): ([f64; 2], &DirectionOf<E>),
     kind: SpecialKind,
     limits: &Limits,
 ) -> Option<Here<E>> {
@@ -150,12 +155,12 @@ fn to_end<E: Plane>(
     // The parameter that is held, and how far the other is beyond.
     let of = |place: [f64; 2]| (place[held], place[1 - held] - end);
     let (mut before, mut last) = (of(here.place), of(beyond));
-    let slope = (last.1 - before.1) / (last.0 - before.0);
+    let rate = Direction { t: (last.1 - before.1) / (last.0 - before.0), x: rate.x.clone() };
     for _ in 0..MOST_TO_END {
         let next = last.0 - last.1 * (last.0 - before.0) / (last.1 - before.1);
         equations.hold(next, held == 0);
-        let shift = slope * (next - here.place[held]);
-        let (point, off, multiplicity) = near(equations, here, shift, kind, limits)?;
+        let shift = scaled(equations, &rate, next - here.place[held]);
+        let (point, off, multiplicity) = near(equations, here, &shift, kind, limits)?;
         (before, last) = (last, (next, point.t - end));
         if last.1.abs() < ENDED {
             let mut place = [end; 2];
@@ -181,19 +186,20 @@ fn direction<E: Plane>(equations: &mut E, point: &PointOf<E>, kind: SpecialKind)
 /// Cosine of the angle between such directions of the same curve, at least.
 const ALIKE: f64 = 0.95;
 
-/// The special point near another, where the followed parameter is expected to be by `shift` greater.
+/// The special point near another, where it is expected to be shifted.
 fn near<E: Plane>(
     equations: &mut E,
     Here { point: last, off, multiplicity, .. }: &Here<E>,
-    shift: f64,
+    shift: &DirectionOf<E>,
     kind: SpecialKind,
     limits: &Limits,
 ) -> Option<(PointOf<E>, Option<DirectionOf<E>>, usize)> {
     let mut reach = REACH;
+    let expected = equations.moved(&last.x, &shift.x, 1.0);
     for _ in 0..=DOUBLINGS {
         let sides = [-reach, reach].map(|s| {
-            let x = equations.moved(&last.x, &last.along.x, s);
-            let t = last.t + shift + s * last.along.t;
+            let x = equations.moved(&expected, &last.along.x, s);
+            let t = last.t + shift.t + s * last.along.t;
             equations.expect_motions(Some(last.stability.free_motions));
             let guess = Guess { x, t, across: Some(&last.along), sense: Some(&last.along) };
             let mut point = corrected(equations, guess, limits.tolerance, EXACTLY).ok()?.point;

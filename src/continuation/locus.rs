@@ -79,8 +79,13 @@ fn walked<E: Plane>(
 ) -> (Vec<Here<E>>, Ended) {
     let mut found: Vec<Here<E>> = Vec::new();
     equations.hold(place[1], false);
-    let off = direction(equations, start, kind);
-    let mut here = Here::<E> { point: start.clone(), place, off, multiplicity: None };
+    let mut point = start.clone();
+    let mut off = direction(equations, start, kind);
+    // Of the two branches that meet there the one along which the parameter changes, and the other.
+    if let Some(other) = off.take_if(|off| off.t.abs() > point.along.t.abs()) {
+        off = Some(std::mem::replace(&mut point.along, other));
+    }
+    let mut here = Here::<E> { point, place, off, multiplicity: None };
     // Which parameter is held, and how fast the state and the other change with it.
     let (mut held, mut sense) = (1_usize, sense);
     let mut rate = scaled(equations, &here.point.along, 0.0);

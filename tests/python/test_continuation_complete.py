@@ -149,3 +149,31 @@ def test_points_of_a_branch_that_fails_meet_the_tolerance() -> None:
     (branch,) = rb.trace(scene, "end.position[2]", (6.39326, 6.87692), depth=0).branches
     assert branch.parameter.size > 1
     assert all(branch.state(i).report.error <= 1e-10 for i in range(branch.parameter.size))
+
+
+@pytest.mark.parametrize("omega", [0.25, 0.75, 1.5, 2.5])
+@pytest.mark.parametrize("first", ["ribbon.thickness", "growth.edge.amplitude"])
+def test_locus_of_the_helical_threshold_by_either_parameter(first: str, omega: float) -> None:
+    # xi = 4.5467 eta^2 + k^2/8 at k = K3 = d/2 / (1 - 18.187/20); along the thickness the trace begins with a helix,
+    # which meets the twisted ribbon from the side
+    eta, c = 0.02, (math.sqrt(259.0) - 7.0) / 2.0
+    d = 2.0 * omega * eta
+    k = 0.5 * d / (1.0 - (math.sqrt(1036.0) - 14.0) / 20.0)
+
+    def threshold(eta: float) -> float:
+        return c * eta**2 + k**2 / 8.0
+
+    xi = threshold(eta)
+    scene = rb.Scene(rb.Ribbon(10.0, 1.0, eta), rb.growth.edge(xi) + rb.growth.chiral(d))
+    spans = {"ribbon.thickness": (0.6 * eta, 1.5 * eta), "growth.edge.amplitude": (0.5 * xi, 1.6 * xi)}
+    other = {"ribbon.thickness": "growth.edge.amplitude", "growth.edge.amplitude": "ribbon.thickness"}[first]
+    diagram = rb.trace(scene, first, spans[first], depth=1)
+    here = eta if first == "ribbon.thickness" else xi
+    points = [p for p in diagram.special_points if p.kind == "branch_point"]
+    point = min(points, key=lambda p: abs(p.parameter / here - 1.0))
+    assert point.parameter == pytest.approx(here, rel=1e-9)
+    locus = rb.trace_locus(diagram, point, other, spans[other])
+    assert locus.ended == ("span", "span")
+    assert len(locus.values) < 80
+    values = locus.values if first == "ribbon.thickness" else locus.values[:, ::-1]
+    np.testing.assert_allclose(values[:, 1], threshold(values[:, 0]), rtol=1e-10)

@@ -39,10 +39,19 @@ pub struct Cell<C> {
     pub edges: [Vec<Mark<C>>; 4],
 }
 
+/// The place of the centre: off the middle, where lines of symmetry may run.
+const MIDDLE: f64 = 0.47;
+
 impl<C: Copy + PartialEq> Cell<C> {
     /// All changes around the cell.
     pub fn ring(&self) -> Vec<Mark<C>> {
         self.edges.concat()
+    }
+
+    /// Where it is cut.
+    pub fn centre(&self) -> [f64; 2] {
+        let [low, high] = self.corners;
+        std::array::from_fn(|axis| low[axis] + MIDDLE * (high[axis] - low[axis]))
     }
 
     /// Where a node is.

@@ -6,7 +6,7 @@ use super::class::{Class, Sample};
 use super::crossing::{Crossing, crossings};
 use super::followed::place;
 use super::meeting::Field;
-use super::outline::{Nodes, Outline, outline};
+use super::outline::{Hidden, Nodes, Outline, outline};
 use super::plane::Plane;
 use super::progress::Progress;
 use crate::InvalidInput;
@@ -133,10 +133,45 @@ pub fn phase_map(
         find_hidden(&refined, xs, ys, &mut along_x, &mut along_y)?;
     }
     let classes: Vec<Option<Class>> = samples.iter().map(|one| one.map(|sample| sample.class)).collect();
-    let nodes = Nodes { xs, ys, classes: &classes, along_x: &along_x, along_y: &along_y };
     let field = (!progress.is_stopped()).then_some(&refined as &dyn Field<Class>);
-    let outline = outline(&nodes, field)?;
-    Ok(PhaseMap { samples, along_x, along_y, outline })
+    for round in 0.. {
+        let nodes = Nodes { xs, ys, classes: &classes, along_x: &along_x, along_y: &along_y };
+        let (outline, hidden) = outline(&nodes, field)?;
+        if hidden.is_empty() || round == MOST_ROUNDS || progress.is_stopped() {
+            return Ok(PhaseMap { samples, along_x, along_y, outline });
+        }
+        for Hidden { edge, at } in hidden {
+            let changes = slot(&mut along_x, &mut along_y, nx, edge);
+            let known = changes.take().unwrap_or_default();
+            *changes = Some(beside(&refined, edge.map(|(i, j)| [xs[i], ys[j]]), &known, at)?);
+        }
+        find_hidden(&refined, xs, ys, &mut along_x, &mut along_y)?;
+    }
+    unreachable!("the last round returns")
+}
+
+/// How often lines are drawn anew since one was seen to cross an edge twice.
+const MOST_ROUNDS: usize = 3;
+
+/// The changes along an edge that are known, and those beside a place that was not.
+fn beside(
+    refined: &Refined<'_>,
+    edge: [[f64; 2]; 2],
+    known: &[Crossing<Class>],
+    at: [f64; 2],
+) -> Result<Vec<Crossing<Class>>, InvalidInput> {
+    let axis = usize::from(edge[0][0] == edge[1][0]);
+    // Between all that are known, and there.
+    let between = |pair: &[Crossing<Class>]| std::array::from_fn(|i| 0.5 * (pair[0].at[i] + pair[1].at[i]));
+    let mut stops: Vec<[f64; 2]> = known.windows(2).map(between).collect();
+    stops.extend([edge[0], at, edge[1]]);
+    stops.sort_by(|a, b| a[axis].total_cmp(&b[axis]));
+    stops.dedup();
+    let mut changes = Vec::new();
+    for part in stops.windows(2) {
+        changes.extend(refined.crossings([part[0], part[1]])?);
+    }
+    Ok(changes)
 }
 
 /// Looks beside the lines found for places where they cross an edge twice between its nodes.

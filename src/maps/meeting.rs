@@ -10,14 +10,11 @@ use crate::InvalidInput;
 /// How often a cell is halved each way.
 const DEEPEST: usize = 7;
 
-/// Where a cell is cut: off its middle, where lines of symmetry may run.
-const MIDDLE: f64 = 0.47;
-
 /// How far a line may be from a straight one, in parts of a cell of the grid.
 const STRAIGHT: f64 = 0.01;
 
 /// Most quarterings within one cell of the grid.
-const MOST: usize = 48;
+const MOST: usize = 96;
 
 /// What is asked for classes between the nodes of a grid.
 pub trait Field<C>: Sync {
@@ -50,16 +47,26 @@ impl Points {
         self.jump.push(jump);
         self.at.len() - 1
     }
+
+    /// Drops all but the first.
+    fn truncate(&mut self, count: usize) {
+        self.at.truncate(count);
+        self.jump.truncate(count);
+    }
 }
 
 /// The lines through one cell, whose new points are numbered from those known on.
 pub struct Meeting<'a, C> {
     field: Option<&'a dyn Field<C>>,
     known: &'a Points,
+    /// Of the cell.
+    corners: [[f64; 2]; 2],
     /// Points inside the cell.
     pub points: Points,
     /// Lines.
     pub segments: Vec<Segment<C>>,
+    /// Places on the border of the cell where a class is that the changes there hide.
+    pub hidden: Vec<[f64; 2]>,
     quarterings: usize,
 }
 
@@ -70,41 +77,74 @@ impl<'a, C: Copy + PartialEq> Meeting<'a, C> {
         field: Option<&'a dyn Field<C>>,
         known: &'a Points,
     ) -> Result<Self, InvalidInput> {
+        let (points, segments, corners) = (Points::default(), Vec::new(), cell.corners);
         let mut meeting =
-            Self { field, known, points: Points::default(), segments: Vec::new(), quarterings: 0 };
+            Self { field, known, corners, points, segments, hidden: Vec::new(), quarterings: 0 };
         meeting.resolve(cell, 0)?;
         Ok(meeting)
     }
 
-    fn resolve(&mut self, cell: &Cell<C>, depth: usize) -> Result<(), InvalidInput> {
+    /// Joins the changes around a cell, or tells where on its border, inside the one of the grid, a class is that they hide: between two
+    /// that undo each other.
+    fn resolve(&mut self, cell: &Cell<C>, depth: usize) -> Result<Option<[f64; 2]>, InvalidInput> {
         let ring = cell.ring();
         if ring.is_empty() {
-            return Ok(());
+            return Ok(None);
         }
         let lines = certain(&ring);
-        if let Some(field) = self.field
+        // Places where lines cross those by which it is cut in pairs.
+        let mut hidden: Vec<[f64; 2]> = Vec::new();
+        while let Some(field) = self.field
             && depth < DEEPEST
             && self.quarterings < MOST
         {
-            let first = self.known.at.len() + self.points.at.len();
-            if let Some(quarters) = self.quarters(cell, field)? {
-                self.quarterings += 1;
-                let inside = first..self.known.at.len() + self.points.at.len();
-                let scale = f64::from(1u32 << depth);
-                if !lines.as_ref().is_some_and(|lines| self.are_straight(lines, cell, inside, scale)) {
-                    return quarters.iter().try_for_each(|quarter| self.resolve(quarter, depth + 1));
+            let (points, segments) = (self.points.at.len(), self.segments.len());
+            let centre = cell.centre();
+            let quarters = match self.quarters(cell, field, &hidden)? {
+                Ok(quarters) => quarters,
+                Err(place) if self.is_on_grid(&place) => {
+                    self.hidden.push(place);
+                    break;
                 }
+                Err(place) => return Ok(Some(place)),
+            };
+            self.quarterings += 1;
+            let first = self.known.at.len();
+            let inside = first + points..first + self.points.at.len();
+            let scale = f64::from(1u32 << depth);
+            if lines.as_ref().is_some_and(|lines| self.are_straight(lines, cell, inside, scale)) {
+                break;
+            }
+            let mut missed = None;
+            for quarter in &quarters {
+                missed = self.resolve(quarter, depth + 1)?;
+                if missed.is_some() {
+                    break;
+                }
+            }
+            match missed {
+                Some(place) if place[0] == centre[0] || place[1] == centre[1] => {
+                    hidden.push(place);
+                    self.points.truncate(points);
+                    self.segments.truncate(segments);
+                }
+                missed => return Ok(missed),
             }
         }
         if let Some(lines) = lines {
             self.segments.extend(lines);
-            return Ok(());
+            return Ok(None);
         }
         let places: Vec<[f64; 2]> = ring.iter().map(|mark| self.place(mark.point)).collect();
         let mean = |i: usize| places.iter().map(|at| at[i]).sum::<f64>() / places.len() as f64;
         let meeting = self.add([mean(0), mean(1)], f64::NAN);
         self.segments.extend(joined(ring, Some(meeting)));
-        Ok(())
+        Ok(None)
+    }
+
+    /// Whether a place is on the border of the cell of the grid.
+    fn is_on_grid(&self, place: &[f64; 2]) -> bool {
+        self.corners.iter().any(|corner| (0..2).any(|axis| corner[axis] == place[axis]))
     }
 
     /// Whether points inside a cell, of which `scale` make the width of one of the grid, are near its lines.
@@ -131,14 +171,15 @@ impl<'a, C: Copy + PartialEq> Meeting<'a, C> {
         !lines.iter().any(folded) && inside.into_iter().all(near)
     }
 
-    /// The quarters of a cell; `None` if the field does not agree with the changes on its border.
+    /// The quarters of a cell, with lines through some places on what cuts it, or where on its border the field does not agree with the changes
+    /// there.
     fn quarters(
         &mut self,
         cell: &Cell<C>,
         field: &dyn Field<C>,
-    ) -> Result<Option<[Cell<C>; 4]>, InvalidInput> {
-        let [low, high] = cell.corners;
-        let centre = [low[0] + MIDDLE * (high[0] - low[0]), low[1] + MIDDLE * (high[1] - low[1])];
+        hidden: &[[f64; 2]],
+    ) -> Result<Result<[Cell<C>; 4], [f64; 2]>, InvalidInput> {
+        let ([low, high], centre) = (cell.corners, cell.centre());
         let middles = [[centre[0], low[1]], [high[0], centre[1]], [centre[0], high[1]], [low[0], centre[1]]];
         let mut halves: Vec<[Vec<Mark<C>>; 2]> = Vec::new();
         let mut at_middles = Vec::new();
@@ -152,7 +193,7 @@ impl<'a, C: Copy + PartialEq> Meeting<'a, C> {
             let (a, b) = cell.edges[edge].split_at(first);
             let class = a.last().map_or(cell.nodes[edge], |mark| mark.after);
             if field.class(*middle)? != class {
-                return Ok(None);
+                return Ok(Err(*middle));
             }
             halves.push([a.to_vec(), b.to_vec()]);
             at_middles.push(class);
@@ -162,18 +203,29 @@ impl<'a, C: Copy + PartialEq> Meeting<'a, C> {
         let mut spokes = Vec::new();
         for (edge, middle) in middles.iter().enumerate() {
             let (mut there, mut back) = (Vec::new(), Vec::new());
-            for crossing in field.crossings([*middle, centre])? {
-                let point = self.add(crossing.at, crossing.jump);
-                there.push(Mark { point, after: crossing.after });
-                back.insert(0, Mark { point, after: crossing.before });
+            let (along, across) = (1 - edge % 2, edge % 2);
+            let within = |place: &&[f64; 2]| {
+                place[across] == centre[across]
+                    && (place[along] - middle[along]) * (place[along] - centre[along]) < 0.0
+            };
+            let mut stops: Vec<[f64; 2]> = hidden.iter().filter(within).copied().collect();
+            let away = |place: &[f64; 2]| (place[along] - middle[along]).abs();
+            stops.sort_by(|a, b| away(a).total_cmp(&away(b)));
+            let stops = [vec![*middle], stops, vec![centre]].concat();
+            for part in stops.windows(2) {
+                for crossing in field.crossings([part[0], part[1]])? {
+                    let point = self.add(crossing.at, crossing.jump);
+                    there.push(Mark { point, after: crossing.after });
+                    back.insert(0, Mark { point, after: crossing.before });
+                }
             }
             if there.last().map_or(at_middles[edge], |mark| mark.after) != inside {
-                return Ok(None);
+                return Ok(Err(*middle));
             }
             spokes.push([there, back]);
         }
         // Quarter i has node i: its border runs from there along edge i, in, out, and along edge i - 1.
-        Ok(Some(std::array::from_fn(|i| {
+        Ok(Ok(std::array::from_fn(|i| {
             let before = (i + 3) % 4;
             let mut nodes = [cell.nodes[i], at_middles[i], inside, at_middles[before]];
             let mut edges = [

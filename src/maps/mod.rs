@@ -5,8 +5,8 @@
 //! them are found to a tolerance, each enclosed by two complete searches that are no farther apart. The
 //! places are joined to lines cell by cell; a cell is quartered where they are not straight or meet.
 //!
-//! A line that crosses an edge twice between its nodes is looked for beside the lines that are found. A region that holds
-//! no node at all is not seen.
+//! A line that crosses an edge twice between its nodes is looked for beside the lines that are found, and where what is inside a
+//! cell does not agree with its border. A region that holds no node at all is not seen.
 
 mod cell;
 mod chain;
@@ -24,6 +24,6 @@ pub use class::{Class, Sample};
 pub use crossing::Crossing;
 pub use grid::{Edges, PhaseMap, phase_map};
 pub use meeting::Field;
-pub use outline::{Nodes, Outline, Polyline, outline};
+pub use outline::{Hidden, Nodes, Outline, Polyline, outline};
 pub use plane::Plane;
 pub use progress::Progress;

@@ -43,7 +43,16 @@ pub struct Polyline<C> {
 /// All lines of a map.
 pub type Outline<C> = Vec<Polyline<C>>;
 
-/// The lines between the classes, and around the cells of which all nodes and edges are known.
+/// A place on an edge of the grid where a class is that the changes along it hide: between two that undo each other.
+#[derive(Clone, Copy, Debug)]
+pub struct Hidden {
+    /// Both nodes of the edge, `(i, j)`.
+    pub edge: [(usize, usize); 2],
+    /// Where, in the unit square.
+    pub at: [f64; 2],
+}
+
+/// The lines between the classes, and around the cells of which all nodes and edges are known, and what was seen to be hidden.
 ///
 /// Where several lines meet in a cell it is quartered, if a field is given that knows the classes inside.
 ///
@@ -52,7 +61,7 @@ pub type Outline<C> = Vec<Polyline<C>>;
 pub fn outline<C: Copy + PartialEq + Send + Sync>(
     nodes: &Nodes<'_, C>,
     field: Option<&dyn Field<C>>,
-) -> Result<Outline<C>, InvalidInput> {
+) -> Result<(Outline<C>, Vec<Hidden>), InvalidInput> {
     let mut points = Points::default();
     let mut number = |edges: &[Option<Vec<Crossing<C>>>]| -> Vec<usize> {
         let mut first = Vec::with_capacity(edges.len());
@@ -69,17 +78,22 @@ pub fn outline<C: Copy + PartialEq + Send + Sync>(
     let cell = |i: usize, j: usize| nodes.cell(i, j, &first_x, &first_y);
     let mut segments = border(nodes, cell, &mut points);
     let places = (0..ny - 1).flat_map(|j| (0..nx - 1).map(move |i| (i, j)));
-    let mixed: Vec<Cell<C>> =
-        places.filter(|&(i, j)| !nodes.is_plain(i, j)).filter_map(|(i, j)| cell(i, j)).collect();
+    let mixed: Vec<((usize, usize), Cell<C>)> = places
+        .filter(|&(i, j)| !nodes.is_plain(i, j))
+        .filter_map(|(i, j)| Some(((i, j), cell(i, j)?)))
+        .collect();
     let known = &points;
     let met = each(mixed.len(), |i| {
-        let meeting = Meeting::of(&mixed[i], field, known)?;
-        Ok::<_, InvalidInput>((meeting.points, meeting.segments))
+        let (place, cell) = &mixed[i];
+        let meeting = Meeting::of(cell, field, known)?;
+        let hidden = meeting.hidden.into_iter().map(|at| nodes.hidden(*place, at)).collect::<Vec<_>>();
+        Ok::<_, InvalidInput>((meeting.points, meeting.segments, hidden))
     });
-    let mut inside = Points::default();
+    let (mut inside, mut hidden) = (Points::default(), Vec::new());
     let known = points.at.len();
     for one in met {
-        let (new, lines) = one?;
+        let (new, lines, unseen) = one?;
+        hidden.extend(unseen);
         let shift = inside.at.len();
         inside.at.extend(new.at);
         inside.jump.extend(new.jump);
@@ -96,10 +110,24 @@ pub fn outline<C: Copy + PartialEq + Send + Sync>(
         left: chain.left,
         right: chain.right,
     });
-    Ok(polylines.collect())
+    Ok((polylines.collect(), hidden))
 }
 
 impl<C: Copy + PartialEq> Nodes<'_, C> {
+    /// What is hidden on the border of a cell.
+    fn hidden(&self, (i, j): (usize, usize), at: [f64; 2]) -> Hidden {
+        let edge = if at[1] == self.ys[j] {
+            [(i, j), (i + 1, j)]
+        } else if at[1] == self.ys[j + 1] {
+            [(i, j + 1), (i + 1, j + 1)]
+        } else if at[0] == self.xs[i] {
+            [(i, j), (i, j + 1)]
+        } else {
+            [(i + 1, j), (i + 1, j + 1)]
+        };
+        Hidden { edge, at }
+    }
+
     /// Numbers of the edges of a cell, those along `x` and those along `y`.
     fn edges(&self, i: usize, j: usize) -> ([usize; 2], [usize; 2]) {
         let nx = self.xs.len();

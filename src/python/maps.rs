@@ -163,6 +163,6 @@ pub fn map_outline<'py>(
         }
     }
     let nodes = Nodes { xs: &xs, ys: &ys, classes: &classes, along_x: &x, along_y: &y };
-    let outline = py.detach(|| maps::outline(&nodes, None))?;
+    let (outline, _) = py.detach(|| maps::outline(&nodes, None))?;
     Ok(lines(py, &outline, |side| side.unwrap_or(-1)))
 }

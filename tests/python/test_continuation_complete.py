@@ -154,8 +154,8 @@ def test_points_of_a_branch_that_fails_meet_the_tolerance() -> None:
 @pytest.mark.parametrize("omega", [0.25, 0.75, 1.5, 2.5])
 @pytest.mark.parametrize("first", ["ribbon.thickness", "growth.edge.amplitude"])
 def test_locus_of_the_helical_threshold_by_either_parameter(first: str, omega: float) -> None:
-    # xi = 4.5467 eta^2 + k^2/8 at k = K3 = d/2 / (1 - 18.187/20); along the thickness the trace begins with a helix,
-    # which meets the twisted ribbon from the side
+    # xi = 4.5467 eta^2 + k^2/8 at k = K3 = d/2 / (1 - 18.187/20); along the thickness the trace begins with a
+    # helix, which meets the twisted ribbon from the side
     eta, c = 0.02, (math.sqrt(259.0) - 7.0) / 2.0
     d = 2.0 * omega * eta
     k = 0.5 * d / (1.0 - (math.sqrt(1036.0) - 14.0) / 20.0)

@@ -207,11 +207,15 @@ def interrupt_soon(seconds):
 
 
 def test_an_interrupt_returns_what_is_done(tmp_path):
-    interrupt_soon(0.15)
-    start = time.perf_counter()
-    with pytest.warns(rb.RibbonWarning, match="interrupted"):
-        diagram = rb.phase_diagram(CHIRAL, (SHEAR, (0.0, 0.1)), (EDGE, (0.0, 0.1)), 1500)
-    assert time.perf_counter() - start < 5.0
+    # On a busy machine nothing may be done as soon as that.
+    for seconds in (0.15, 0.5, 2.0):
+        interrupt_soon(seconds)
+        start = time.perf_counter()
+        with pytest.warns(rb.RibbonWarning, match="interrupted"):
+            diagram = rb.phase_diagram(CHIRAL, (SHEAR, (0.0, 0.1)), (EDGE, (0.0, 0.1)), 1500)
+        assert time.perf_counter() - start < seconds + 5.0
+        if diagram.done.any():
+            break
     assert diagram.interrupted
     assert 0 < np.count_nonzero(diagram.done) < diagram.done.size
     assert set(diagram.phase[~diagram.done]) == {""}
@@ -299,3 +303,27 @@ def test_an_interrupt_of_a_held_diagram_returns_what_is_done():
     with pytest.warns(rb.RibbonWarning, match="interrupted"):
         diagram = rb.phase_diagram(scene, ("end.force", (-3e-4, -1e-4)), (EDGE, (0.0, 0.03)), 100)
     assert 0 < np.count_nonzero(diagram.done) < diagram.done.size
+
+
+@pytest.mark.parametrize("nodes", [21, 27, 36])
+def test_tips_inside_cells_are_followed(nodes):
+    # Edge growth and a thickness gradient, without which two bent shapes are stable from 4.5467 eta^2 on: a cusp,
+    # whose tip is cut off where it is narrower than a hundredth of a cell.
+    scene = rb.Scene(LEAF, rb.growth.edge(0.06) + rb.growth.thickness(0.001))
+    x, y = ("growth.thickness.amplitude", (-0.2, 0.21)), (EDGE, (0.0, 0.1))
+    diagram = rb.phase_diagram(scene, x, y, nodes)
+    tip = min(boundary.points[:, 1].min() for boundary in diagram.boundaries)
+    exact = (math.sqrt(259.0) - 7.0) / 2.0 * 0.1**2
+    assert 0.0 < tip - exact < 0.2 * 0.1 / (nodes - 1)
+
+
+def test_a_narrow_band_between_grid_points_is_followed_from_row_to_row():
+    eta = 0.0656989
+    growth = rb.growth.Profile(d22=[-0.02051044], name="profile") + rb.growth.chiral(-0.03)
+    scene = rb.Scene(rb.Ribbon(10.0, 1.0, eta, material=rb.Isotropic(nu=-0.28186)), growth)
+    x = ("growth.chiral.amplitude", (-0.0455281197, 0.0182818721))
+    y = ("ribbon.thickness", (0.0267758838, 0.1065926456))
+    diagram = rb.phase_diagram(scene, x, y, 14)
+    # the band reaches through the whole diagram
+    finer = rb.phase_diagram(scene, x, y, 57)
+    assert diagram.areas["twisted"] == pytest.approx(finer.areas["twisted"], rel=1e-3)

@@ -307,8 +307,8 @@ def test_an_interrupt_of_a_held_diagram_returns_what_is_done():
 
 @pytest.mark.parametrize("nodes", [21, 27, 36])
 def test_tips_inside_cells_are_followed(nodes):
-    # Edge growth and a thickness gradient, without which two bent shapes are stable from 4.5467 eta^2 on: a cusp,
-    # whose tip is cut off where it is narrower than a hundredth of a cell.
+    # Edge growth and a thickness gradient, without which two bent shapes are stable from 4.5467 eta^2 on: a
+    # cusp, whose tip is cut off where it is narrower than a hundredth of a cell.
     scene = rb.Scene(LEAF, rb.growth.edge(0.06) + rb.growth.thickness(0.001))
     x, y = ("growth.thickness.amplitude", (-0.2, 0.21)), (EDGE, (0.0, 0.1))
     diagram = rb.phase_diagram(scene, x, y, nodes)

@@ -18,13 +18,15 @@ pub struct Sections {
     /// The least determinant, of the stiffness relative to that of the ungrown section; it changes sign with the first
     /// eigenvalue.
     pub least: f64,
+    /// The least of the greater eigenvalues in bending and twist, relative to the ungrown section; it changes sign with the second.
+    pub second: f64,
     /// Logarithm of the size of the product of all determinants.
     pub log: f64,
 }
 
 impl Default for Sections {
     fn default() -> Self {
-        Self { index: 0, least: f64::INFINITY, log: 0.0 }
+        Self { index: 0, least: f64::INFINITY, second: f64::INFINITY, log: 0.0 }
     }
 }
 
@@ -40,6 +42,10 @@ impl Sections {
         let (mut negative, mut determinant) = (0, 1.0);
         // The stiffnesses in eps and K1 come first and are positive: no pivoting is needed.
         for k in 0..4 {
+            if k == 2 {
+                let [mean, half] = [1.0, -1.0].map(|sign| 0.5 * (a[(2, 2)] + sign * a[(3, 3)]));
+                self.second = self.second.min(mean + (half * half + a[(2, 3)] * a[(3, 2)]).sqrt());
+            }
             let pivot = a[(k, k)];
             negative += usize::from(pivot < 0.0);
             determinant *= pivot;

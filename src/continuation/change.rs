@@ -18,6 +18,8 @@ pub struct Change {
     /// Stability at the first point, and the change of the parameter along the branch.
     start: Stability,
     slope: f64,
+    /// In how many directions sections are unstable on both sides.
+    unstable: usize,
 }
 
 impl Change {
@@ -39,6 +41,7 @@ impl Change {
             crosses,
             start: a.stability.clone(),
             slope: a.along.t,
+            unstable: a.stability.section_index.min(b.stability.section_index),
         }
     }
 
@@ -56,7 +59,7 @@ impl Change {
     /// which it grows in proportion.
     pub fn value<S, C>(&self, point: &Point<S, C>, multiplicity: usize) -> f64 {
         match self.kind {
-            SpecialKind::SectionInstability => point.stability.section,
+            SpecialKind::SectionInstability => point.stability.section[usize::from(self.unstable == 1)],
             _ if self.turns => point.along.t,
             _ => {
                 let side = if self.is_ahead_of(point) { 1.0 } else { -1.0 };

@@ -19,8 +19,8 @@ pub struct Direction<C> {
 pub struct Stability {
     /// Largest number of negative eigenvalues of the tangent stiffness of a section.
     pub section_index: usize,
-    /// Smooth along a branch, negative where and only where a section is unstable.
-    pub section: f64,
+    /// Smooth along a branch, negative where and only where a section is unstable, and where in two directions.
+    pub section: [f64; 2],
     /// Number of independent ways to lower the energy, where every section is stable and the loads have a potential.
     pub index: Option<usize>,
     /// Motions that change nothing, all along a branch.

@@ -300,7 +300,7 @@ impl Equations for Held {
             index
         };
         let determinant = self.bordered.as_ref().and_then(|bordered| system.determinant(bordered));
-        let section = sections.least.min(1e300);
+        let section = [sections.least, sections.second].map(|value| value.min(1e300));
         Stability { section_index: sections.index, section, index, free_motions: free, determinant }
     }
 

@@ -214,7 +214,7 @@ impl Equations for Natural {
         let determinant = Some(Determinant::of(self.bordered().determinant()));
         Stability {
             section_index: 0,
-            section: 1.0,
+            section: [1.0; 2],
             index: Some(balance.index()),
             free_motions: 0,
             determinant,

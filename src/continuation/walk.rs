@@ -384,7 +384,7 @@ impl<'a, E: Equations> Walk<'a, E> {
     fn ended_by(&self, failed: Failed) -> Ended {
         // Equations are singular where a section is about to become unstable.
         let stability = &self.last().stability;
-        let soft = stability.section_index == 0 && stability.section < 1e-3;
+        let soft = stability.section_index == 0 && stability.section[0] < 1e-3;
         if soft && !matches!(failed, Failed::Interrupted | Failed::Refused(_)) {
             Ended::Section
         } else {

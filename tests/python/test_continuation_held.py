@@ -266,3 +266,17 @@ def test_two_branch_points_that_nearly_coincide_are_told_apart():
         assert rough.size == exact.size
         # meshes are made for a hundredth of tol
         assert np.abs(rough - exact).max() < 1e-2 * tol
+
+
+@pytest.mark.parametrize("eta", [0.04, 0.07])
+@pytest.mark.parametrize("along", [([0.0, 15.0], [0.005, 0.01]), 0.01], ids=["along", "uniform"])
+def test_sections_that_are_unstable_in_two_directions(eta, along):
+    # pulled, and free to shorten: the stiffness in twist is n3/12 + eta^2/9 - xi/45, least at the end
+    force = 1.8277e-5
+    scene = rb.Scene(rb.Ribbon(15.0, 1.0, eta), rb.growth.edge(along), end=rb.Sliding(force=force))
+    # the parameter is the amplitude itself, or a factor where that varies
+    unit = 1.0 if along == 0.01 else 0.01
+    diagram = rb.trace(scene, "growth.edge.amplitude", (0.0, 0.03 / unit), depth=0)
+    points = places(diagram, "section_instability") * unit
+    assert len(points) == 2
+    assert points[1] == pytest.approx(5.0 * eta**2 + 45.0 / 12.0 * force, rel=1e-10)

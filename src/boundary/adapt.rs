@@ -155,6 +155,8 @@ const LONGEST_LAYER: f64 = 4.0;
 const MOST_LAYERS: f64 = 20_000.0;
 /// Part of an element by which the estimates from both ends of the same one differ.
 const ALIKE: f64 = 0.25;
+/// Distance of places, over the length, that is none.
+const SAME: f64 = 1e-13;
 /// Least density of elements, relative to its mean.
 const LEAST_DENSITY: f64 = 0.1;
 
@@ -201,7 +203,7 @@ pub fn refined(mesh: &Mesh, estimate: &Estimate, tolerance: f64) -> Vec<f64> {
     nodes
 }
 
-/// Nodes that are nearly the same from either end, the same, if none of them is a place that is given. Collocation then has what symmetry
+/// Nodes that are nearly the same from either end, the same, if the places that are given are so. Collocation then has what symmetry
 /// the equations have, and branches that break it meet the others exactly: an error that is not symmetric is an imperfection, by the third
 /// root of which they miss one another.
 #[must_use]
@@ -209,10 +211,14 @@ pub fn symmetrised(nodes: Vec<f64>, problem: &Problem) -> Vec<f64> {
     let (count, length) = (nodes.len(), nodes[nodes.len() - 1]);
     let other: Vec<f64> = nodes.iter().rev().map(|s| length - s).collect();
     let alike = (1..count).all(|i| (nodes[i] - other[i]).abs() < ALIKE * (nodes[i] - nodes[i - 1]));
-    if !alike || problem.breaks().len() > 2 {
+    let breaks = problem.breaks();
+    let mirrored = |(a, b): (&f64, &f64)| (a + b - length).abs() < SAME * length;
+    if !alike || !breaks.iter().zip(breaks.iter().rev()).all(mirrored) {
         return nodes;
     }
-    let mean = |(i, s): (usize, &f64)| if i + 1 < count { 0.5 * (s + other[i]) } else { *s };
+    let mean = |(i, s): (usize, &f64)| {
+        if i + 1 < count && !breaks.contains(s) { 0.5 * (s + other[i]) } else { *s }
+    };
     nodes.iter().enumerate().map(mean).collect()
 }
 

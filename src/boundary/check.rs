@@ -138,7 +138,7 @@ fn held(end: &End, at: &At, outward: f64, force: f64, moment: f64, length: f64, 
         }
         Hold::Hinged(director) => {
             worst.take(away.norm() / length);
-            worst.take(1.0 - frame[(director, director)].abs());
+            worst.take(1.0 - frame[(director, director)]);
             worst.take(m[director].abs() / moment);
         }
         Hold::Sliding(axis) => {

@@ -122,9 +122,12 @@ pub fn conditions(end: &End, at: &At, outward: f64, units: &Units) -> [Condition
             rows.extend((0..3).map(|i| moment(end, at, outward, units, &basis(i))));
         }
         Hold::Hinged(director) => {
+            // On the way to it the axis is not yet where it belongs.
+            let axes = directors(&end.rotation);
+            let axis = |k: usize| axes.column(k % 3).into_owned();
             rows.extend((0..3).map(|i| position(end, at, units, &basis(i))));
-            rows.extend([1, 2].map(|step| alignment(at, director, (director + step) % 3)));
-            rows.push(moment(end, at, outward, units, &basis(director)));
+            rows.extend([1, 2].map(|step| alignment(at, director, &axis(director + step))));
+            rows.push(moment(end, at, outward, units, &axis(director)));
         }
         Hold::Sliding(axis) => {
             let least = axis.iamin();
@@ -178,11 +181,17 @@ fn moment(end: &End, at: &At, outward: f64, units: &Units, direction: &Vector) -
 }
 
 /// The component of `E_k x d_k` that vanishes with `d_k . E_other`.
-fn alignment(at: &At, director: usize, other: usize) -> Condition {
+fn alignment(at: &At, director: usize, other: &Vector) -> Condition {
     let d = directors(&at.rotation).column(director).into_owned();
-    let direction = Vector::ith(other, 1.0);
     // d(d_k . e) = (phi x d_k) . e = phi . (d_k x e)
-    (row(3, &d.cross(&direction)), -d.dot(&direction))
+    (row(3, &d.cross(other)), -d.dot(other))
+}
+
+/// Whether the director of a hinge points along its axis, not against it, which meets the same conditions.
+#[must_use]
+pub fn is_upright(end: &End, at: &At) -> bool {
+    let Hold::Hinged(director) = end.hold else { return true };
+    directors(&at.rotation).column(director).dot(&directors(&end.rotation).column(director)) > 0.0
 }
 
 /// Columns `d1`, `d2`, `d3` of a unit quaternion.

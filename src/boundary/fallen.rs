@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::creep::crept_from;
 use super::iterate::Iterate;
-use super::known::{Guess, Known, soft};
+use super::known::{Guess, Known, hung, soft};
 use super::mesh::Mesh;
 use super::newton::Failed;
 use super::path::Stride;
@@ -27,10 +27,12 @@ pub fn fallen(
 ) -> Result<Solved, InvalidInput> {
     // Between clamps also from the straight, twisted ribbon, bent anew.
     let straight = BOWS.into_iter().filter(|_| problem.twist().is_some());
-    for disturbance in straight.chain(DISTURBANCES) {
+    let fine = Mesh::new(problem, unstable.nodes.clone(), settings.degree)?;
+    let bent = straight.chain(DISTURBANCES).map(|how| disturbed(&fine, &unstable.x, &how));
+    // And as it is, turned about the line of its ends.
+    for guess in hung(&fine, &unstable.x).map(Ok).into_iter().chain(bent) {
         spent.allowed = spent.work + LITTLE_WORK;
-        let mesh = Mesh::new(problem, unstable.nodes.clone(), settings.degree)?;
-        let guess = disturbed(&mesh, &unstable.x, &disturbance)?;
+        let guess = guess?;
         // As from any guess: on a coarse mesh first, which is quick and takes large steps.
         let known = Known::Given(&guess);
         let nodes = problem.first_nodes(settings.first_elements as f64, first_turn(problem, &known)?);

@@ -152,11 +152,11 @@ fn imperfection(problem: &Problem, natural: &Strain) -> Result<impl Fn(f64) -> S
     })
 }
 
-/// How much of a bend, either way, and of a twist is not stiff: all of that about `d2` and of the twist, if that is not much stiffer. What is
-/// as easy about `d2` is not bent about `d1`.
+/// How much of a bend, either way, and of a twist is not stiff beside the softer bend: all of that about `d2` and of the twist, if that is not
+/// much stiffer. What is as easy about `d2` is not bent about `d1`.
 #[must_use]
 pub fn soft(compliance: &Strain) -> Strain {
-    let softest = compliance.rows(1, 3).max();
+    let softest = compliance[1].max(compliance[2]);
     let share = compliance.map(|compliance| (compliance / (STIFF * softest)).min(1.0));
     let across = share[1] * (1.0 - compliance[2] / compliance[1]).max(0.0);
     Strain::new(0.0, across, share[2], share[3])
@@ -265,8 +265,22 @@ fn fit_wrench(mesh: &Mesh, guess: &Guess, x: &mut Iterate) -> Result<(), Invalid
     Ok(())
 }
 
-/// Turns a shape that is free to turn about an axis to where its load is lowest.
-fn hang(mesh: &Mesh, nodes: &mut [At]) {
+/// A shape that is free to turn about an axis, turned to where its load is lowest; `None` if it is not, or hardly turns.
+#[must_use]
+pub fn hung(mesh: &Mesh, x: &Iterate) -> Option<Guess> {
+    let mut states = x.nodes.clone();
+    let turn = hang(mesh, &mut states);
+    let last = mesh.elements();
+    let mut strains: Vec<Strain> = (0..last).map(|i| x.strain(mesh, i, 0.0)).collect();
+    strains.push(x.strain(mesh, last - 1, 1.0));
+    (turn > LEAST_TURN).then(|| Guess { s: mesh.nodes.clone(), strains, states, has_wrench: false })
+}
+
+/// Angle by which a shape hardly turns.
+const LEAST_TURN: f64 = 1.0;
+
+/// Turns a shape that is free to turn about an axis to where its load is lowest, and tells by what angle.
+fn hang(mesh: &Mesh, nodes: &mut [At]) -> f64 {
     let problem = &mesh.problem;
     let [start, end] = [0, 1].map(|i| problem.ends[i].hold);
     let (first, last) = (nodes[0].position, nodes[mesh.elements()].position);
@@ -280,7 +294,7 @@ fn hang(mesh: &Mesh, nodes: &mut [At]) {
         (Hold::Hinged(director), Hold::Free, _) => (Vector::ith(director, 1.0), first),
         (Hold::Free, Hold::Hinged(director), _) => (Vector::ith(director, 1.0), last),
         (_, _, Some(along)) if spins(start, &along) && spins(end, &along) => (along, first),
-        _ => return,
+        _ => return 0.0,
     };
     // The work of all forces when the shape turns by phi is a cos phi + b sin phi.
     let (mut a, mut b) = (0.0, 0.0);
@@ -319,6 +333,7 @@ fn hang(mesh: &Mesh, nodes: &mut [At]) {
             }
         }
     }
+    2.0 * half.abs()
 }
 
 /// The rotation between two, by the shorter way.

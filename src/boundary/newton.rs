@@ -5,6 +5,7 @@
 
 #![expect(clippy::neg_cmp_op_on_partial_ord, reason = "what is not a number fails every test")]
 
+use super::ends::is_upright;
 use super::iterate::{Correction, Iterate};
 use super::mesh::Mesh;
 use super::system::{Failure, System, Targets};
@@ -62,6 +63,15 @@ const ROUNDING: f64 = 1e-8;
 
 /// Iterates from `x` until the correction is small.
 pub fn newton(system: &mut System, x: Iterate, targets: &Targets, control: &Control) -> Ended {
+    let mut ended = iterated(system, x, targets, control);
+    let nodes = [0, ended.x.nodes.len() - 1];
+    if ended.failure.is_none() && !(0..2).all(|i| is_upright(&targets.ends[i], &ended.x.nodes[nodes[i]])) {
+        ended.failure = Some(Failed::Jumped);
+    }
+    ended
+}
+
+fn iterated(system: &mut System, x: Iterate, targets: &Targets, control: &Control) -> Ended {
     let mut norms = Vec::new();
     let mut x = x;
     system.settle(&mut x, targets.load);

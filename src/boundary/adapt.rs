@@ -208,18 +208,36 @@ pub fn refined(mesh: &Mesh, estimate: &Estimate, tolerance: f64) -> Vec<f64> {
 /// root of which they miss one another.
 #[must_use]
 pub fn symmetrised(nodes: Vec<f64>, problem: &Problem) -> Vec<f64> {
-    let (count, length) = (nodes.len(), nodes[nodes.len() - 1]);
-    let other: Vec<f64> = nodes.iter().rev().map(|s| length - s).collect();
-    let alike = (1..count).all(|i| (nodes[i] - other[i]).abs() < ALIKE * (nodes[i] - nodes[i - 1]));
-    let breaks = problem.breaks();
+    let (breaks, length) = (problem.breaks(), problem.length);
     let mirrored = |(a, b): (&f64, &f64)| (a + b - length).abs() < SAME * length;
-    if !alike || !breaks.iter().zip(breaks.iter().rev()).all(mirrored) {
+    if !breaks.iter().zip(breaks.iter().rev()).all(mirrored) {
         return nodes;
     }
-    let mean = |(i, s): (usize, &f64)| {
-        if i + 1 < count && !breaks.contains(s) { 0.5 * (s + other[i]) } else { *s }
-    };
-    nodes.iter().enumerate().map(mean).collect()
+    // Between places that are given as many elements as between their images.
+    let place = |s: f64| nodes.partition_point(|&node| node < s);
+    let part = |pair: &[f64]| &nodes[place(pair[0])..=place(pair[1])];
+    let parts: Vec<&[f64]> = breaks.windows(2).map(part).collect();
+    let mut same = vec![0.0];
+    for (own, image) in parts.iter().zip(parts.iter().rev()) {
+        let count = own.len().max(image.len()) - 1;
+        for i in 1..=count {
+            let [x, y] = [i, count - i].map(|i| i as f64 / count as f64);
+            let (s, other) = (within(own, x), length - within(image, y));
+            // To where the other image is, of those that differ by little.
+            if (s - other).abs() > ALIKE * (own[own.len() - 1] - own[0]) / count as f64 {
+                return nodes;
+            }
+            same.push(if i < count { 0.5 * (s + other) } else { own[own.len() - 1] });
+        }
+    }
+    same
+}
+
+/// Nodes at a part of the way from the first to the last, joined by lines.
+fn within(nodes: &[f64], part: f64) -> f64 {
+    let place = part * (nodes.len() - 1) as f64;
+    let i = (place as usize).min(nodes.len() - 2);
+    nodes[i] + (place - i as f64) * (nodes[i + 1] - nodes[i])
 }
 
 /// The iterate on another mesh.

@@ -39,7 +39,7 @@ pub fn begin_with(
     let symmetric = symmetrised(nodes.clone(), problem);
     let mesh = Mesh::new(problem, nodes, solution.degree())?;
     let moved = mesh.nodes.iter().zip(&symmetric).map(|(from, to)| (from - to).abs()).fold(0.0, f64::max);
-    if moved < ROUNDING * problem.length {
+    if mesh.nodes.len() == symmetric.len() && moved < ROUNDING * problem.length {
         return begin(equations, on_nodes(&mesh, solution.iterate(), symmetric)?, t, limits);
     }
     let own = on_nodes(&mesh, solution.iterate(), mesh.nodes.clone())?;

@@ -44,7 +44,8 @@ def find_states(
     -----
     Newton's method for :math:`\prod_i (|x - x_i|^{-2} + 1)\, F(x) = 0` does not converge to the equilibria
     :math:`x_i` that are known. It starts from waves of bending and twist on the natural, straight and twisted
-    shapes, then on all that was found. Source: Farrell, Birkisson & Funke (2015).
+    shapes, then on all that was found, and ends after some two seconds for every equilibrium that is asked
+    for. Source: Farrell, Birkisson & Funke (2015).
 
     Examples
     --------

@@ -14,7 +14,7 @@ use super::known::Known;
 use super::mesh::Mesh;
 use super::path::Path;
 use super::problem::Problem;
-use super::solve::{Settings, Solved, Spent, adapted, goal, solve};
+use super::solve::{Settings, Solved, Spent, adapted, goal, solve, work};
 use super::system::{System, Targets};
 use crate::InvalidInput;
 
@@ -58,13 +58,14 @@ pub fn find(problem: &Arc<Problem>, settings: &Settings, most: usize) -> Result<
     for known in [Known::Natural(0.0), Known::Straight(0.0), Known::Twisted(0.0)] {
         bases.extend(Path::new(&mesh, &known).ok().map(|path| path.x));
     }
-    let mut next = 0;
+    let (mut next, mut refining) = (0, 0);
     loop {
         bases.extend(search.known[next..].iter().cloned());
         next = search.known.len();
         for base in std::mem::take(&mut bases) {
             for disturbance in DISTURBANCES.iter().chain(&BOWS) {
-                if search.found.len() >= most || settings.interrupted.is_some_and(|asks| asks()) {
+                let spent = refining + work(&search.system) >= LARGEST_WORK * (most + 1);
+                if search.found.len() >= most || spent || settings.interrupted.is_some_and(|asks| asks()) {
                     return Ok(search.found);
                 }
                 let guess = disturbed(&mesh, &base, disturbance)?;
@@ -74,6 +75,7 @@ pub fn find(problem: &Arc<Problem>, settings: &Settings, most: usize) -> Result<
                     spent.allowed = ALLOWED;
                     search.known.push(x.clone());
                     let solved = adapted(settings, mesh.clone(), x, &mut spent)?;
+                    refining += spent.work;
                     if solved.report.status.is_solved() {
                         search.keep(settings, solved)?;
                     }
@@ -88,6 +90,8 @@ pub fn find(problem: &Arc<Problem>, settings: &Settings, most: usize) -> Result<
 
 /// Factorised elements of a refinement that are too many.
 const ALLOWED: usize = 50_000;
+/// The same of all of the search, for every equilibrium that is asked for and one more: some two seconds.
+const LARGEST_WORK: usize = 100_000;
 
 struct Search {
     system: System,

@@ -122,9 +122,9 @@ pub const LARGEST_ERROR: f64 = 1e-2;
 /// Radians that a section turns at most in one step: more may be another solution.
 pub const LARGEST_STEP_TURN: f64 = 2.0;
 /// The least step of `t`.
-const LEAST_STEP: f64 = 1e-5;
+const LEAST_STEP: f64 = 1e-9;
 /// Solves on a way that are too many.
-const MOST_STEPS: usize = 100;
+const MOST_STEPS: usize = 300;
 
 impl Path {
     /// The way from the known shape on a mesh.

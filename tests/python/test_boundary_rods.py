@@ -341,3 +341,64 @@ def test_a_rod_that_only_twists_is_not_shortened():
     law = rb.LinearLaw(EI1=math.inf, EI2=math.inf, GJ=1.0, inextensible=True)
     with pytest.raises(rb.ConvergenceError):
         rb.solve(rod(law=law, end=rb.Hinged(2, position=(0.0, 0.0, 0.5))))
+
+
+# --- hinges, chains and coils that are reached the long way
+
+
+@pytest.mark.parametrize(
+    ("start", "director", "place"),
+    [
+        (rb.Clamped(rotation=(0.0, 3.0, 0.0)), 3, (0.0, 0.0, 0.8)),
+        (rb.Clamped(rotation=(0.0, 1.7, 0.0)), 3, (0.3, 0.0, 0.5)),
+        (rb.Clamped(rotation=(0.0, 0.0, 3.0)), 2, (0.0, 0.0, 0.8)),
+        (rb.Clamped(twist_turns=0.5), 2, (0.0, 0.0, 0.8)),
+    ],
+)
+def test_the_director_of_a_hinge_points_along_its_axis(start, director, place):
+    law = rb.LinearLaw(EI1=1.0, EI2=0.5, GJ=0.3, inextensible=True)
+    scene = rod(law=law, start=start, end=rb.Hinged(director, position=place))
+    for state in [rb.solve(scene), *rb.find_states(scene, most=4)]:
+        assert state.directors[-1, director - 1, director - 1] == pytest.approx(1.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("EI", [1e-4, 1e-5, 1e-6])
+def test_hanging_rods_that_hardly_bend_are_catenaries(EI):
+    span = 0.7
+    a = brentq(lambda a: 2.0 * a * math.sinh(span / (2.0 * a)) - 1.0, 0.05, 5.0, xtol=1e-15)
+    sag = a * (math.cosh(span / (2.0 * a)) - 1.0)
+    law = rb.LinearLaw(EI1=10.0 * EI, EI2=EI, GJ=EI, inextensible=True)
+    ends = {"start": rb.Pinned(), "end": rb.Pinned(position=(0.0, 0.0, span))}
+    # forces are a million times those of bending: rounding of them is more than the default of tol
+    state = rb.solve(rod(law=law, gravity=(-1.0, 0.0, 0.0), **ends), tol=1e-8)
+    assert state.stable
+    # bending adds to the energy in proportion to EI
+    assert -state.at(np.array([0.5])).position[0, 0] == pytest.approx(sag, abs=3.0 * EI)
+
+
+@pytest.mark.parametrize("GJ", [1e-2, 1e-4, 1e-6])
+def test_torsion_does_not_enter_the_plane_elastica(GJ):
+    law = rb.LinearLaw(EI1=2.0, EI2=1.0, GJ=GJ, inextensible=True)
+    state = rb.solve(rod(law=law, end=rb.Clamped(position=(0.0, 0.0, 0.7))))
+    m = brentq(lambda m: 2.0 * ellipe(m) / ellipk(m) - 1.7, 1e-6, 0.999, xtol=1e-14)
+    assert state.stable
+    # a shape that is out of plane by 1e-10 of GJ is what tol leaves
+    assert -state.reactions.end.force[2] == pytest.approx(4.0 * (2.0 * ellipk(m)) ** 2, rel=1e-9)
+
+
+@pytest.mark.parametrize("circles", [10.0, 25.0, 50.0])
+def test_many_circles_by_an_end_moment(circles):
+    moment = 2.0 * math.pi * circles
+    law = rb.LinearLaw(EI1=math.inf, EI2=1.0, GJ=1.0, inextensible=True)
+    state = rb.solve(rod(law=law, end=rb.Free(moment=(0.0, moment, 0.0))))
+    np.testing.assert_allclose(state.strains[:, 2], moment, rtol=1e-12)
+
+
+def test_an_arch_swings_to_where_its_loads_are_low():
+    law = rb.LinearLaw(EI1=92.4, EI2=0.0283, GJ=0.05, inextensible=True)
+    loads = [
+        rb.PointLoad(0.25, force=(-0.0194, -0.01637, -0.04406)),
+        rb.PointLoad(0.0896, force=(0.02638, -0.00564, 0.02086)),
+    ]
+    end = rb.Pinned(position=(0.1094, 0.9101, -0.0025))
+    assert rb.solve(rod(law=law, start=rb.Pinned(), end=end, loads=loads)).stable

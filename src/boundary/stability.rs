@@ -47,8 +47,10 @@ type Vector = Vector3<f64>;
 const BUCKLED: f64 = 1e-6;
 /// Stiffness of the springs, in units of the soft stiffness of the whole ribbon.
 const SPRING: f64 = 1e-7;
-/// Part of the flexibility of all elements and of the springs that stands for none at all, a few roundings, where the ends hold what is rigid.
+/// Part of the flexibility of all elements, and of the springs, that stands for none at all, a few roundings, where the ends hold what is
+/// rigid.
 const ROUNDING: f64 = 1e-13;
+const ROUNDING_OF_SPRINGS: f64 = 2e-15;
 
 impl Problem {
     /// Whether the loads have a potential: a moment that is fixed in space has none, unless it is about a hinge.
@@ -188,7 +190,7 @@ pub fn index(
     let springs = &free * free.transpose() / SPRING;
     // F, of all that is behind.
     let mut behind = Matrix6::from_iterator(springs.iter().copied());
-    let (mut index, mut flexibility) = (0_isize, behind.amax());
+    let (mut index, mut rounding) = (0_isize, ROUNDING_OF_SPRINGS * behind.amax());
     let held = |node: usize| {
         let here = holding.iter().filter(|spring| spring.node == node);
         here.fold(Matrix6::zeros(), |sum, spring| sum + spring.along * spring.along.transpose())
@@ -198,7 +200,7 @@ pub fn index(
         // An element so long that it buckles by itself, held at its start alone: its strains were eliminated at that.
         let own = Symmetric::new(&element.flexibility)?;
         index += own.negative(BUCKLED * element.flexibility.amax()) as isize;
-        flexibility += element.flexibility.amax();
+        rounding += ROUNDING * element.flexibility.amax();
         let (root, signs) = Symmetric::new(&behind)?.root();
         let pivot = root.tr_mul(&((element.stiffness + held(i)) * root)) + Matrix6::from_diagonal(&signs);
         let pivot = Symmetric::new(&pivot)?;
@@ -216,7 +218,7 @@ pub fn index(
     last.view_mut((6, 6), (free.ncols(), free.ncols())).copy_from(&spring);
     // No flexibility at all is a little of it.
     if rigid {
-        (0..6).for_each(|i| last[(i, i)] -= ROUNDING * flexibility);
+        (0..6).for_each(|i| last[(i, i)] -= rounding);
     }
     index += Symmetric::new(&last)?.negative(0.0) as isize - 6;
     usize::try_from(index).ok()

@@ -28,7 +28,9 @@ pub fn at_value<E: Equations>(
     for trial in 0..MOST {
         // By a secant, then by halves: next to a fold the parameter is not linear.
         let part = if trial < SECANTS { (value - a.t) / (b.t - a.t) } else { 0.5 };
-        let middle = at(equations, &a, &b, part * (b.s - a.s))?;
+        let Some(middle) = at(equations, &a, &b, part * (b.s - a.s)) else {
+            return directly(equations, [&a, &b], value);
+        };
         let most = NEAR * (middle.s - ends[0]).min(ends[1] - middle.s);
         let missed = (middle.t - value).abs();
         if missed < most * middle.along.t.abs() {
@@ -46,3 +48,22 @@ pub fn at_value<E: Equations>(
     }
     None
 }
+
+/// The same by Newton's method at the value, from along the tangents of both, where the way along the branch fails, as next to a section that becomes
+/// unstable.
+fn directly<E: Equations>(equations: &mut E, ends: [&PointOf<E>; 2], value: f64) -> Option<PointOf<E>> {
+    let [a, b] = ends;
+    ends.into_iter().filter(|end| end.along.t.abs() > STEEP).find_map(|end| {
+        let length = (value - end.t) / end.along.t;
+        let x = equations.moved(&end.x, &end.along.x, length);
+        equations.expect_motions(Some(end.stability.free_motions));
+        let guess = Guess { x, t: value, across: None, sense: Some(&end.along) };
+        let found = corrected(equations, guess, 1e-11, EXACTLY).ok()?;
+        let part = (value - a.t) / (b.t - a.t);
+        let s = a.s + part * (b.s - a.s);
+        (found.first < NEAR * (b.s - a.s)).then(|| PointOf::<E> { t: value, s, ..found.point })
+    })
+}
+
+/// Change of the parameter along a branch, of its arclength, above which its value tells where.
+const STEEP: f64 = 1e-2;

@@ -383,13 +383,27 @@ impl<'a, E: Equations> Walk<'a, E> {
     /// How the branch ends where a step or a mesh fails.
     fn ended_by(&self, failed: Failed) -> Ended {
         // Equations are singular where a section is about to become unstable.
-        let stability = &self.last().stability;
-        let soft = stability.section_index == 0 && stability.section[0] < 1e-3;
-        if soft && !matches!(failed, Failed::Interrupted | Failed::Refused(_)) {
+        let soft = self.last().stability.section[0] < SOFT || self.softens();
+        if self.last().stability.section_index == 0
+            && soft
+            && !matches!(failed, Failed::Interrupted | Failed::Refused(_))
+        {
             Ended::Section
         } else {
             Ended::Failed(failed)
         }
+    }
+
+    /// Whether a section alone becomes unstable just ahead: as at a fold of what it bears, the square of its softness vanishes in proportion.
+    fn softens(&self) -> bool {
+        let last = self.last();
+        let square = |point: &PointOf<E>| point.stability.section[0].powi(2);
+        let before = self.branch.points.iter().rev().find(|point| square(point) > 4.0 * square(last));
+        last.stability.section[0] < SOFTER
+            && before.is_some_and(|before| {
+                let ahead = (last.t - before.t) * square(last) / (square(before) - square(last));
+                before.stability.section_index == 0 && ahead.abs() < JUST_AHEAD
+            })
     }
 
     /// The last point.
@@ -397,6 +411,11 @@ impl<'a, E: Equations> Walk<'a, E> {
         &self.branch.points[self.branch.points.len() - 1]
     }
 }
+
+/// Softness of a section, of the ungrown one, that is about to become unstable; one that may be, and how far ahead in the span that is.
+const SOFT: f64 = 1e-3;
+const SOFTER: f64 = 0.1;
+const JUST_AHEAD: f64 = 1e-3;
 
 /// Whether a parameter is beyond its range, by more than rounding.
 fn is_outside(t: f64) -> bool {

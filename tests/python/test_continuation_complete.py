@@ -177,3 +177,23 @@ def test_locus_of_the_helical_threshold_by_either_parameter(first: str, omega: f
     assert len(locus.values) < 80
     values = locus.values if first == "ribbon.thickness" else locus.values[:, ::-1]
     np.testing.assert_allclose(values[:, 1], threshold(values[:, 0]), rtol=1e-10)
+
+
+def test_a_tape_spring_ends_where_its_section_bears_no_more() -> None:
+    # curved across, bent by a force at its tip: determinate up to the greatest moment of the section, which
+    # the clamp meets first, at 3.6473562e-6 by shooting
+    strip = rb.Scene(rb.Ribbon(10.0, 1.0, 0.02), rb.growth.Profile(d22=[0.6]))
+    start = rb.solve(strip, method="collocation")
+    (branch,) = rb.trace(strip, "end.force[0]", (0.0, 6.6667e-6), start=start, depth=0).branches
+    assert branch.ended == ("start", "section instability")
+    assert branch.parameter[-1] == pytest.approx(3.6473562e-6, rel=1e-6)
+
+
+@pytest.mark.parametrize("amplitude", [1.8, 2.3, 2.5])
+def test_rings_next_to_a_section_instability(amplitude: float) -> None:
+    # the ring bears any gradient through its thickness, and all its ways to bend soften at once
+    scene = rb.Scene(rb.Ribbon(10.0, 1.0, 0.05), rb.growth.thickness(0.01), start=rb.Closed())
+    diagram = rb.trace(scene, "growth.thickness.amplitude", (0.0, 1.2 * math.pi))
+    (state,) = diagram.states_at(amplitude)
+    np.testing.assert_allclose(state.strains[:, 2], 2.0 * math.pi / 10.0, rtol=1e-9)
+    assert state.stable

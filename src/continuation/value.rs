@@ -61,7 +61,7 @@ fn directly<E: Equations>(equations: &mut E, ends: [&PointOf<E>; 2], value: f64)
         let found = corrected(equations, guess, 1e-11, EXACTLY).ok()?;
         let part = (value - a.t) / (b.t - a.t);
         let s = a.s + part * (b.s - a.s);
-        (found.first < NEAR * (b.s - a.s)).then(|| PointOf::<E> { t: value, s, ..found.point })
+        (found.first < NEAR * (b.s - a.s)).then_some(PointOf::<E> { t: value, s, ..found.point })
     })
 }
 

@@ -121,8 +121,9 @@ const LONGEST_STEP: f64 = 2.0;
 pub const LARGEST_ERROR: f64 = 1e-2;
 /// Radians that a section turns at most in one step: more may be another solution.
 pub const LARGEST_STEP_TURN: f64 = 2.0;
-/// The least step of `t`.
-const LEAST_STEP: f64 = 1e-9;
+/// The least step of `t`, of `t` or of the first place that counts: loads a million times those of buckling bend a ribbon within that.
+const LEAST_STEP: f64 = 2e-5;
+const FIRST_FRACTION: f64 = 5e-5;
 /// Solves on a way that are too many.
 const MOST_STEPS: usize = 300;
 
@@ -244,7 +245,8 @@ impl Path {
             if stride.step < FOLD_STEP && stride.careful && reached.fraction > 0.0 {
                 return Ok(self.past_folds(system, reached, stride, failure));
             }
-            if stride.step < LEAST_STEP || reached.steps >= MOST_STEPS {
+            let least = LEAST_STEP * reached.fraction.max(FIRST_FRACTION);
+            if stride.step < least || reached.steps >= MOST_STEPS {
                 reached.norms = ended.norms;
                 reached.failure = Some(failure);
                 return Ok(Stop::Failed);

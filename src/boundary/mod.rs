@@ -17,7 +17,7 @@
 //! | `correct`, `panel` | corrections, also with a parameter unknown |
 //! | `newton`, `known`, `path`, `arclength` | the nonlinear equations, from a known shape |
 //! | `creep`, `kinks` | the same where no equilibria lead on: viscous, to a stable one, with sections in several phases |
-//! | `step`, `adapt` | dense output, errors and meshes |
+//! | `step`, `adapt`, `waves` | dense output, errors and meshes |
 //! | `check` | an independent residual |
 //! | `stability`, `fallen` | the index under the end conditions, and what unstable states fall into |
 //! | `deflation` | several equilibria |
@@ -59,6 +59,7 @@ mod step;
 mod symmetric;
 mod system;
 mod transfer;
+mod waves;
 
 pub use adapt::{Defects, Estimate, defects, refined, symmetrised, transferred};
 pub use correct::{Bordered, Line};
@@ -80,3 +81,4 @@ pub use solution::{Energies, SectionState, Solution, Wrench, energies};
 pub use solve::{DEGREE, Settings, Solved, goal};
 pub use step::Stepper;
 pub use system::{Failure, Residual, System, Targets};
+pub use waves::divided_for_waves;

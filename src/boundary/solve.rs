@@ -18,6 +18,7 @@ use super::path::{LARGEST_STEP_TURN, Path, Reached, Stop, Stride, largest_turn};
 use super::problem::Problem;
 use super::report::{Report, Status};
 use super::system::{System, Targets};
+use super::waves::divided_for_waves;
 use crate::InvalidInput;
 
 /// What is asked of the solver.
@@ -438,12 +439,13 @@ pub fn adapted(
         stalls = if before.is_some_and(|e| error > 0.5 * e) { stalls + 1 } else { 0 };
         // Once may be a mesh that was still too coarse; orders of two and more halve the error soon.
         let stalled = stalls >= 2 && error < LARGEST_ROUNDING;
-        let status = if error <= settings.tolerance {
-            Some(Status::Converged)
-        } else if stalled {
-            Some(Status::RoundingLimited)
+        let settled = error <= settings.tolerance || stalled;
+        let hidden = if settled && settings.adaptive { divided_for_waves(&mesh, &x)? } else { None };
+        let wanted = hidden.as_ref().map_or(count + 1, |nodes| nodes.len() - 1);
+        let status = if settled && hidden.is_none() {
+            Some(if error <= settings.tolerance { Status::Converged } else { Status::RoundingLimited })
         } else if !settings.adaptive
-            || count >= settings.most_elements
+            || wanted > settings.most_elements
             || spent.meshes >= meshes + MOST_MESHES
             || spent.left() < FEWEST * count
         {
@@ -453,6 +455,9 @@ pub fn adapted(
         };
         if let Some(status) = status {
             let reason = match status {
+                Status::Unresolved if settled => {
+                    format!("{count} elements hide ways to buckle, for which {wanted} are needed")
+                }
                 Status::Unresolved => format!("{count} elements leave an error of {error:.1e}"),
                 _ => String::new(),
             };
@@ -472,7 +477,7 @@ pub fn adapted(
             return Ok(Solved { nodes: mesh.nodes, x, report });
         }
         before = Some(error);
-        let nodes = refined(&mesh, &estimated, settings.tolerance);
+        let nodes = hidden.unwrap_or_else(|| refined(&mesh, &estimated, settings.tolerance));
         let finer = Mesh::new(&problem, nodes, settings.degree)?;
         x = transferred(&x, &mesh, &finer)?;
         mesh = finer;

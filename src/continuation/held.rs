@@ -367,7 +367,7 @@ impl Equations for Held {
         estimated.error = estimated.error.max(error.t.abs());
         let rounding = estimated.error < LARGEST_ROUNDING && estimated.is_rounding(&x.x, &system.units);
         if estimated.error <= tolerance.min(most) || rounding {
-            return Ok(None);
+            return x.showing_waves(&system.mesh);
         }
         x.refined(&system.mesh, &estimated, (MARGIN * tolerance).min(0.5 * most)).map(Some)
     }

@@ -8,7 +8,8 @@ use super::equations::Failed;
 use super::held::Held;
 use crate::InvalidInput;
 use crate::boundary::{
-    At, Estimate, Iterate, Mesh, Problem, Solution, Stepper, refined, symmetrised, transferred,
+    At, Estimate, Iterate, Mesh, Problem, Solution, Stepper, divided_for_waves, refined, symmetrised,
+    transferred,
 };
 use crate::section::Strain;
 
@@ -74,7 +75,19 @@ impl HeldState {
     /// # Errors
     /// Where that has too many elements, or a section is refused.
     pub fn refined(&self, mesh: &Mesh, estimated: &Estimate, tolerance: f64) -> Result<Self, Failed> {
-        let nodes = symmetrised(refined(mesh, estimated, tolerance), &mesh.problem);
+        self.on_finer(mesh, refined(mesh, estimated, tolerance))
+    }
+
+    /// The state on a mesh that shows all ways in which it may buckle; `None` if its own does.
+    ///
+    /// # Errors
+    /// Where that has too many elements, or a section is refused.
+    pub fn showing_waves(&self, mesh: &Mesh) -> Result<Option<Self>, Failed> {
+        divided_for_waves(mesh, &self.x)?.map(|nodes| self.on_finer(mesh, nodes)).transpose()
+    }
+
+    fn on_finer(&self, mesh: &Mesh, nodes: Vec<f64>) -> Result<Self, Failed> {
+        let nodes = symmetrised(nodes, &mesh.problem);
         if nodes.len() > MOST_ELEMENTS {
             return Err(Failed::Fine(nodes.len()));
         }

@@ -20,8 +20,9 @@ pub struct Found<E: Equations> {
     pub off: Option<Box<OffOf<E>>>,
 }
 
-/// Depth to which an interval with several special points is divided.
+/// Depth to which an interval with several special points is divided, and how many in a row are not noise.
 const DEEPEST: usize = 12;
+const MANY_IN_A_ROW: usize = 100;
 
 /// The special points between two points, in order.
 ///
@@ -90,11 +91,11 @@ fn between<E: Equations>(
         _ => from.index.unwrap_or(0).abs_diff(to.index.unwrap_or(0)),
     };
     // Those that are not at the same place: as near as what changes here is told beyond it, or as near as may be.
-    let mut right = None;
+    let (mut right, mut told) = (None, false);
     for part in ASIDE.iter().filter(|_| multiplicity > 1 && depth < DEEPEST) {
         let s = point.s + part * (b.s - a.s);
         let beyond = if s < b.s { at(equations, a, b, s - a.s) } else { None };
-        let told = beyond.as_ref().is_some_and(|beyond| changed(&a.stability, &beyond.stability) > 0);
+        told = beyond.as_ref().is_some_and(|beyond| changed(&a.stability, &beyond.stability) > 0);
         if told || right.is_none() {
             right = beyond;
         }
@@ -105,7 +106,9 @@ fn between<E: Equations>(
     let multiplicity =
         right.as_ref().map_or(multiplicity, |right| changed(&a.stability, &right.stability).max(1));
     found.push(Found { point, kind, multiplicity, off: None });
-    right.map_or(Ok(()), |right| between(equations, &right, b, limits, depth + 1, found))
+    // Many in a row are no deeper than one, up to as many as may be noise.
+    let deeper = depth + usize::from(!told || found.len() >= MANY_IN_A_ROW);
+    right.map_or(Ok(()), |right| between(equations, &right, b, limits, deeper, found))
 }
 
 /// Whether other special points lie between a section instability and that of two points where sections are stable: the index there

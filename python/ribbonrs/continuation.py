@@ -11,14 +11,13 @@ from .arrays import count
 from .boundary import degree_of, tolerance
 from .branch import Branch, SpecialPoint, root
 from .check import Numbers, number, numbers
-from .course import Held, Uniform
 from .diagram import Diagram, Work
-from .equilibrium import NODES, solve
+from .equilibrium import NODES
 from .errors import InputError, RibbonWarning
 from .parameter import Parameter, parameter_of
 from .problem import problem_of
-from .record import record_of, same
 from .scene import GROWTH_WARNING, Scene
+from .start import start_of
 from .state import State
 from .traced import Maker
 
@@ -26,9 +25,6 @@ __all__ = ["check_span", "check_values", "trace"]
 
 DEEPEST = 20
 """Most branch points that a branch may be away from those the trace started with."""
-
-INSIDE = 1e-12
-"""How far beyond the span, relative to it, rounding may put a start."""
 
 JUMP = 1e-3
 """What is left of a function at a change of its sign, relative to its values beside it, if it is no zero."""
@@ -122,7 +118,7 @@ def trace(
         laws = scenes[0].section_law.core(), scenes[1].section_law.core()
         found = _core.trace_natural(laws, (low, high), wanted, depth, max_steps)
     else:
-        value, given = _start(traced, start, (low, high), scenes[0], tol, degree)
+        value, given = start_of(traced, start, (low, high), scenes[0], tol, degree)
         problems = problem_of(scenes[0]), problem_of(scenes[1])
         try:
             found = _core.trace(problems, (low, high), given, value, wanted, depth, max_steps, tol, degree)
@@ -211,52 +207,6 @@ def _warn_growth(scenes: tuple[Scene, Scene]) -> None:
 def _boundary_valued(scene: Scene) -> bool:
     """Whether its states are not all natural shapes of one section."""
     return scene.loaded or scene.section_law.varies
-
-
-def _start(
-    parameter: Parameter,
-    start: State | None,
-    span: tuple[float, float],
-    scene: Scene,
-    tol: float,
-    degree: int | None,
-) -> tuple[float, _core.BoundarySolution | _core._Array]:
-    """Where the trace starts: value of the parameter, and a solution or strains (4,)."""
-    if start is None:
-        value = span[0]
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", RibbonWarning)  # branches say what is stable
-            start = solve(scene, tol=tol, degree=degree, method="collocation")
-    else:
-        value = _value_of(parameter, start, span)
-    if isinstance(start.course, Held):
-        return value, start.course.solution
-    if isinstance(start.course, Uniform):
-        return value, start.course.strain
-    expected = 'a state of a boundary-value problem: solve(..., method="collocation") gives it'
-    raise InputError("start", start, expected)
-
-
-def _value_of(parameter: Parameter, start: State, span: tuple[float, float]) -> float:
-    """The value of the parameter in the scene of a start, which is the one traced but for that."""
-    if not isinstance(start, State):
-        raise InputError("start", start, "a State")
-    expected = f"a state of the scene that is traced, which may differ in {parameter.name} alone"
-    theirs = record_of(start.scene)
-    try:
-        value = parameter.read(start.scene)
-        alike = same(record_of(parameter.scene(value)), theirs)
-        # A place that is left to the ribbon may be written out.
-        alike = alike or same(record_of(parameter.write(parameter.base, value)), theirs)
-    except (InputError, AttributeError, IndexError, TypeError):
-        raise InputError("start", start, expected) from None
-    if not alike:
-        raise InputError("start", start, expected)
-    slack = INSIDE * (span[1] - span[0])
-    if not span[0] - slack <= value <= span[1] + slack:
-        expected = f"a state with {parameter.name} in the span, from {span[0]:g} to {span[1]:g}"
-        raise InputError("start", start, f"{expected}, not {value:g}")
-    return min(max(value, span[0]), span[1])
 
 
 def _zeros(branch: Branch, name: str, function: Function) -> Iterator[SpecialPoint]:

@@ -267,6 +267,17 @@ impl Solution {
         Ok(solution)
     }
 
+    /// Number of independent motions that change nothing; none where the equations are singular otherwise.
+    ///
+    /// # Errors
+    /// Where a section is refused.
+    pub fn free_motions(&self) -> Result<usize, InvalidInput> {
+        let mesh = Mesh::new(&self.problem, self.nodes.clone(), self.degree)?;
+        let mut system = System::new(mesh)?;
+        let regular = system.linearise(&self.x, &goal(&self.problem)).is_ok();
+        Ok(if regular { system.motions().len() } else { 0 })
+    }
+
     /// The problem.
     #[must_use]
     pub fn problem(&self) -> &Arc<Problem> {

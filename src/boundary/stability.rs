@@ -42,10 +42,14 @@ use super::transfer::Rows;
 
 type Vector = Vector3<f64>;
 
-/// Eigenvalues of the flexibility of an element below minus this part of the largest are those of buckling, which come
-/// from infinity.
+/// Eigenvalues of the flexibility `B D^-1` of an element below minus this part of the largest of `B`, but for rounding, are those of buckling,
+/// which come from infinity.
 const BUCKLED: f64 = 1e-6;
-/// Stiffness of the springs, in units of the soft stiffness of the whole ribbon.
+/// Flexibility of an element that is nearly infinite, of what it is without stress, and stiffness of springs at its end, of the inverse of
+/// that, of which one keeps it from being so.
+const SINGULAR: f64 = 1e4;
+const SPRINGS: [f64; 4] = [0.0, 0.2, 0.5, 1.2];
+/// Stiffness of the springs at the start, in units of the soft stiffness of the whole ribbon.
 const SPRING: f64 = 1e-7;
 /// Part of the flexibility of all elements, and of the springs, that stands for none at all, a few roundings, where the ends hold what is
 /// rigid.
@@ -93,6 +97,14 @@ pub struct Place {
     pub moment: Vector,
 }
 
+/// An element: `A`, `B`, `C`, `D`.
+struct Transfer {
+    a: Matrix6<f64>,
+    b: Matrix6<f64>,
+    c: Matrix6<f64>,
+    d: Matrix6<f64>,
+}
+
 /// An element, by the second derivatives above.
 struct Blocks {
     /// `D^-1 C`, to the wrench at its start from the pose there.
@@ -101,11 +113,15 @@ struct Blocks {
     flexibility: Matrix6<f64>,
     /// `D^-1`.
     carried: Matrix6<f64>,
+    /// Number of negative eigenvalues of the flexibility.
+    buckled: usize,
+    /// Stiffness of springs at its end, which the next element is to take back.
+    springs: f64,
 }
 
-impl Blocks {
+impl Transfer {
     /// From the change of the end pose and moment about the origin by those at the start, all in units of the problem.
-    fn new(rows: &Rows, ends: [&Place; 2], units: &Units) -> Option<Self> {
+    fn new(rows: &Rows, ends: [&Place; 2], units: &Units) -> Self {
         // p holds the moment about the node itself: dC = dM + dr x N + r x dN.
         let arm = |place: &Place| place.position.cross_matrix() * (units.force / units.moment);
         let lever = |force: &Vector| -force.cross_matrix() * (units.length / units.moment);
@@ -140,11 +156,28 @@ impl Blocks {
         let [start, end] = ends.map(half);
         let d = d + end * b;
         let c = c + end * a - d * start;
-        let inverse = d.try_inverse()?;
-        Some(Self {
-            stiffness: symmetric(&(inverse * c)),
-            flexibility: symmetric(&(b * inverse)),
+        Self { a, b, c, d }
+    }
+
+    /// The element with springs at its end: where it is about to buckle by itself without them, `D` is singular. The next element is
+    /// held by as much less.
+    fn blocks(&self) -> Option<Blocks> {
+        let size = self.b.amax();
+        let with = |springs: &f64| self.with_springs(springs / size);
+        let regular = |blocks: &Blocks| blocks.flexibility.amax() < SINGULAR * size;
+        SPRINGS.iter().filter_map(with).find(regular)
+    }
+
+    fn with_springs(&self, springs: f64) -> Option<Blocks> {
+        let inverse = (self.d + springs * self.b).try_inverse()?;
+        let flexibility = symmetric(&(self.b * inverse));
+        let rigid = BUCKLED * self.b.amax() + ROUNDING * flexibility.amax();
+        Some(Blocks {
+            stiffness: symmetric(&(inverse * (self.c + springs * self.a))),
+            buckled: Symmetric::new(&flexibility)?.negative(rigid),
+            flexibility,
             carried: inverse,
+            springs,
         })
     }
 }
@@ -195,14 +228,17 @@ pub fn index(
         let here = holding.iter().filter(|spring| spring.node == node);
         here.fold(Matrix6::zeros(), |sum, spring| sum + spring.along * spring.along.transpose())
     };
+    // By springs at the end of the element before.
+    let mut taken = 0.0;
     for (i, (row, ends)) in rows.iter().zip(places.windows(2)).enumerate() {
-        let element = Blocks::new(row, [&ends[0], &ends[1]], units)?;
+        let element = Transfer::new(row, [&ends[0], &ends[1]], units).blocks()?;
         // An element so long that it buckles by itself, held at its start alone: its strains were eliminated at that.
-        let own = Symmetric::new(&element.flexibility)?;
-        index += own.negative(BUCKLED * element.flexibility.amax()) as isize;
+        index += element.buckled as isize;
         rounding += ROUNDING * element.flexibility.amax();
         let (root, signs) = Symmetric::new(&behind)?.root();
-        let pivot = root.tr_mul(&((element.stiffness + held(i)) * root)) + Matrix6::from_diagonal(&signs);
+        let stiffness = element.stiffness + held(i) - Matrix6::from_diagonal_element(taken);
+        taken = element.springs;
+        let pivot = root.tr_mul(&(stiffness * root)) + Matrix6::from_diagonal(&signs);
         let pivot = Symmetric::new(&pivot)?;
         index += pivot.negative(0.0) as isize - signs.iter().filter(|sign| **sign < 0.0).count() as isize;
         let across = root.tr_mul(&element.carried);
@@ -214,7 +250,7 @@ pub fn index(
     last.fixed_view_mut::<6, 6>(0, 0).copy_from(&-behind);
     last.view_mut((0, 6), (6, free.ncols())).copy_from(&free);
     last.view_mut((6, 0), (free.ncols(), 6)).copy_from(&free.transpose());
-    let spring = free.transpose() * held(rows.len()) * &free;
+    let spring = free.transpose() * (held(rows.len()) - Matrix6::from_diagonal_element(taken)) * &free;
     last.view_mut((6, 6), (free.ncols(), free.ncols())).copy_from(&spring);
     // No flexibility at all is a little of it.
     if rigid {

@@ -296,6 +296,11 @@ impl BoundarySolution {
         self.solution.index
     }
 
+    /// Number of independent motions that change nothing.
+    fn free_motions(&self) -> PyResult<usize> {
+        Ok(self.solution.free_motions()?)
+    }
+
     /// Estimated error.
     #[getter]
     fn error(&self) -> f64 {

@@ -1,0 +1,134 @@
+"""The state that a trace starts with."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+
+from . import _core
+from .course import Held, Uniform
+from .ends import Closed
+from .equilibrium import solve
+from .errors import ConvergenceError, InputError, RibbonWarning
+from .linear import LinearLaw
+from .parameter import Parameter
+from .record import record_of, same
+from .scene import Scene
+from .state import State
+
+__all__ = ["start_of"]
+
+INSIDE = 1e-12
+"""How far beyond the span, relative to it, rounding may put a start."""
+
+ASIDE = 1e-3
+"""How far aside, in the span, is looked for what a start that may be moved freely is beside its value."""
+
+ALIKE = 0.05
+"""Difference of the mean squares of curvatures of two such states, relative to the larger or to 1/L^2."""
+
+
+def start_of(
+    parameter: Parameter,
+    start: State | None,
+    span: tuple[float, float],
+    scene: Scene,
+    tol: float,
+    degree: int | None,
+) -> tuple[float, _core.BoundarySolution | _core._Array]:
+    """Return where a trace starts: value of the parameter, and a solution or strains (4,)."""
+    if start is None:
+        value = span[0]
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RibbonWarning)  # branches say what is stable
+            start = solve(scene, tol=tol, degree=degree, method="collocation")
+    else:
+        value = _value_of(parameter, start, span)
+    if isinstance(start.course, Held):
+        value, start = _beside(parameter, start, value, span, tol, degree)
+        return value, start.course.solution
+    if isinstance(start.course, Uniform):
+        return value, start.course.strain
+    expected = 'a state of a boundary-value problem: solve(..., method="collocation") gives it'
+    raise InputError("start", start, expected)
+
+
+def _value_of(parameter: Parameter, start: State, span: tuple[float, float]) -> float:
+    """The value of the parameter in the scene of a start, which is the one traced but for that."""
+    if not isinstance(start, State):
+        raise InputError("start", start, "a State")
+    expected = f"a state of the scene that is traced, which may differ in {parameter.name} alone"
+    theirs = record_of(start.scene)
+    try:
+        value = parameter.read(start.scene)
+        alike = same(record_of(parameter.scene(value)), theirs)
+        # A place that is left to the ribbon may be written out.
+        alike = alike or same(record_of(parameter.write(parameter.base, value)), theirs)
+    except (InputError, AttributeError, IndexError, TypeError):
+        raise InputError("start", start, expected) from None
+    if not alike:
+        raise InputError("start", start, expected)
+    slack = INSIDE * (span[1] - span[0])
+    if not span[0] - slack <= value <= span[1] + slack:
+        expected = f"a state with {parameter.name} in the span, from {span[0]:g} to {span[1]:g}"
+        raise InputError("start", start, f"{expected}, not {value:g}")
+    return min(max(value, span[0]), span[1])
+
+
+def _beside(
+    parameter: Parameter,
+    start: State,
+    value: float,
+    span: tuple[float, float],
+    tol: float,
+    degree: int | None,
+) -> tuple[float, State]:
+    """The start, or what it is a little beside its value of the parameter, with that.
+
+    Where it may be moved freely but beside it not: a buckled rod that is the same in all directions may be
+    turned about the line of its ends, until a weight, however small, tells where it hangs.
+    """
+    free = _free_motions(start)
+    if free == 0:
+        return value, start
+    step = ASIDE * (span[1] - span[0])
+    aside = value + step if value + step <= span[1] else value - step
+    found: list[State] = []
+    for guess in (start, None):
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", RibbonWarning)
+                state = solve(
+                    parameter.scene(aside), guess=guess, tol=tol, degree=degree, method="collocation"
+                )
+        except (ConvergenceError, InputError):
+            continue
+        if _free_motions(state) >= free:
+            return value, start
+        if _alike(state, start):
+            found.append(state)
+        if found and _index(found[0]) <= _index(start):
+            break
+    return (aside, min(found, key=_index)) if found else (value, start)
+
+
+def _free_motions(state: State) -> int:
+    """How many there are of what is closed, or the same in all directions: of others there are none."""
+    law = state.scene.law
+    round_rod = isinstance(law, LinearLaw) and law.EI1 == law.EI2
+    if not isinstance(state.course, Held) or not (round_rod or isinstance(state.scene.start, Closed)):
+        return 0
+    return state.course.solution.free_motions()
+
+
+def _index(state: State) -> float:
+    return 0.0 if state.index is None else state.index
+
+
+def _alike(a: State, b: State) -> bool:
+    """Whether two states are nearly the same but for a motion that leaves the curvatures what they are."""
+    squares = [np.mean(state.strains[:, 1:] ** 2, axis=0) for state in (a, b)]
+    sizes = np.array([[mean[0] + mean[1], mean[2]] for mean in squares])
+    scale = max(np.max(sizes), 1.0 / a.scene.ribbon.length_ratio**2)
+    return bool(np.all(np.abs(sizes[0] - sizes[1]) < ALIKE * scale))

@@ -22,7 +22,7 @@ __all__ = ["start_of"]
 INSIDE = 1e-12
 """How far beyond the span, relative to it, rounding may put a start."""
 
-ASIDE = 1e-3
+ASIDE = 0.05
 """How far aside, in the span, is looked for what a start that may be moved freely is beside its value."""
 
 ALIKE = 0.05
@@ -47,6 +47,7 @@ def start_of(
         value = _value_of(parameter, start, span)
     if isinstance(start.course, Held):
         value, start = _beside(parameter, start, value, span, tol, degree)
+    if isinstance(start.course, Held):
         return value, start.course.solution
     if isinstance(start.course, Uniform):
         return value, start.course.strain

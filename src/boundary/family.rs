@@ -96,8 +96,7 @@ impl Family {
     /// Whether all are rods that bend in all directions alike.
     #[must_use]
     pub fn isotropic(&self) -> bool {
-        let alike = |law: &Law| matches!(law, Law::Rod(rod) if rod.compliance[1] == rod.compliance[2]);
-        self.corners.iter().all(|corner| alike(&corner.law))
+        self.corners.iter().all(|corner| corner.law.isotropic())
     }
 
     /// The problem at these parameters, of which the second counts if there are two.

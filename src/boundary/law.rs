@@ -57,6 +57,12 @@ impl Law {
         }
     }
 
+    /// Whether it is that of a rod that bends in all directions alike.
+    #[must_use]
+    pub fn isotropic(&self) -> bool {
+        matches!(self, Self::Rod(rod) if rod.compliance[1] == rod.compliance[2])
+    }
+
     /// What a ribbon is made of and how it grows; `None` for a rod.
     #[must_use]
     pub fn spec(&self) -> Option<&RibbonSpec> {

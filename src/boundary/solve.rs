@@ -271,6 +271,8 @@ const LEAST_WORK: usize = 20_000;
 const SPARSE: usize = 10;
 /// Factorisations that a finer mesh takes at least.
 const FEWEST: usize = 4;
+/// Correction at most, of Newton's method, of a ribbon that may be turned freely.
+const EXACTLY: f64 = 1e-12;
 /// Error that a mesh on a careful way is made for.
 const ERROR_ON_THE_WAY: f64 = 1e-3;
 /// Elements of a mesh on the way that are no longer refined.
@@ -406,8 +408,10 @@ pub fn adapted(
     let problem = Arc::clone(&mesh.problem);
     let meshes = spent.meshes;
     let (mut before, mut stalls): (Option<f64>, usize) = (None, 0);
-    let control =
-        Control { tolerance: (1e-2 * settings.tolerance).max(1e-15), iterations: 25, least_step: 1e-2 };
+    // A motion that changes nothing does so at an equilibrium alone: the index asks for more than the state.
+    let least = if problem.law.isotropic() { EXACTLY } else { f64::INFINITY };
+    let tolerance = (1e-2 * settings.tolerance).clamp(1e-15, least);
+    let control = Control { tolerance, iterations: 25, least_step: 1e-2 };
     let goal = goal(&problem);
     loop {
         if settings.interrupted.is_some_and(|asks| asks()) {

@@ -2,11 +2,13 @@
 
 use super::branch::Limits;
 use super::correct::{Corrected, EXACTLY, Guess, PointOf, ROUGHLY, arclength, corrected, difference};
-use super::equations::{Direction, Equations, Failed, dot};
+use super::equations::{Direction, Equations, Failed, Stability, dot};
 use super::predict::weights;
 
 /// The error of a prediction that steps are made for.
 const PREDICTION: f64 = 5e-3;
+/// Distance of a parameter from the end of its range that is rounding.
+const NEAR_END: f64 = 1e-12;
 /// An error of a prediction that no step may have.
 const FAR: f64 = 8.0 * PREDICTION;
 /// The least cosine of the angle between the tangents of points in a row.
@@ -82,19 +84,40 @@ pub fn advanced<E: Equations>(
             length = (length + (end - guess.1) / slope).clamp(0.0, step);
             guess = predicted(equations, length);
         }
-        let (mut point, first) = reached(equations, last, (guess.0, end), None, length, limits)?;
-        point.t = end;
-        point.s = last.s + near(equations, last, &point, first, length)?;
-        return Ok(Advanced { point, order: memory.len(), error: first, at_end: true });
+        let there = |equations: &mut E| {
+            let (mut point, first) = reached(equations, last, (guess.0.clone(), end), None, length, limits)?;
+            point.t = end;
+            point.s = last.s + near(equations, last, &point, first, length)?;
+            Ok(Advanced { point, order: memory.len(), error: first, at_end: true })
+        };
+        // There may be states that are freer to move than those of the branch.
+        equations.expect_motions(None);
+        let motions = last.stability.free_motions;
+        return match there(equations) {
+            Ok(ended) if ended.point.stability.free_motions >= motions => Ok(as_free(ended, last)),
+            Err(failed) if motions == 0 => Err(failed),
+            _ => {
+                equations.expect_motions(Some(motions));
+                there(equations)
+            }
+        };
     }
     let (mut point, first) = reached(equations, last, (x, t), Some(&last.along), step, limits)?;
     let length = near(equations, last, &point, first, step)?;
-    if outside(point.t) {
+    if !(NEAR_END..=1.0 - NEAR_END).contains(&point.t) {
         // A shorter step meets the end.
         return Err(Failed::Jumped);
     }
     point.s = last.s + length;
     Ok(Advanced { point, order: memory.len(), error: first, at_end: false })
+}
+
+/// What ends a branch. One that is freer to move than the last point is a branch point and has the stability of that.
+fn as_free<E: Equations>(mut ended: Advanced<E>, last: &PointOf<E>) -> Advanced<E> {
+    if ended.point.stability.free_motions > last.stability.free_motions {
+        ended.point.stability = Stability { determinant: None, ..last.stability.clone() };
+    }
+    ended
 }
 
 /// The point that a step leads to, and the error of its prediction. Where the branch lies across the parameter the tangent is exact: by its

@@ -122,7 +122,8 @@ def test_a_force_across_a_buckled_column_is_followed_both_ways() -> None:
     diagram = rb.trace(scene, "end.force[0]", (-1.0, 1.0), start=turned)
     (branch,) = diagram.branches
     assert branch.ended == ("span", "span")
-    np.testing.assert_allclose(places(diagram, "branch_point"), [0.0], atol=1e-12)
+    # Of the span, what branch points are found to.
+    np.testing.assert_allclose(places(diagram, "branch_point"), [0.0], atol=2.0 * 2e-11)
     last = branch.state(-1)
     np.testing.assert_allclose(last.position[-1], plane.position[-1], atol=1e-8)
     assert (branch.index[0], branch.index[-1]) in ((1.0, 0.0), (0.0, 1.0))

@@ -37,14 +37,7 @@ pub fn fallen(
         let known = Known::Given(&guess);
         let nodes = problem.first_nodes(settings.first_elements as f64, first_turn(problem, &known)?);
         let mesh = Mesh::new(problem, nodes, settings.degree)?;
-        let stride = Stride {
-            step: 1.0,
-            most: 1.0,
-            careful: false,
-            again: false,
-            most_work: 0,
-            interrupted: settings.interrupted,
-        };
+        let stride = Stride { step: 1.0, most: 1.0, careful: false, again: false };
         let (mesh, reached) = followed(settings, mesh, &known, stride, spent)?;
         // Who asks to stop asks once.
         if reached.failure == Some(Failed::Interrupted) {

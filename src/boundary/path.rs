@@ -201,6 +201,7 @@ impl Path {
         system: &mut System,
         reached: &mut Reached,
         stride: &mut Stride,
+        bounds: &Bounds,
     ) -> Result<Stop, InvalidInput> {
         let problem = Arc::clone(&system.mesh.problem);
         if let Err(failure) = self.begin(system, reached) {
@@ -209,7 +210,7 @@ impl Path {
         }
         let control = Control { tolerance: 1e-6, iterations: 25, least_step: 1e-2 };
         while reached.fraction < 1.0 || stride.again {
-            if let Some(failure) = stride.ends(system, reached.fraction) {
+            if let Some(failure) = bounds.passed(system, reached.fraction) {
                 reached.failure = Some(failure);
                 return Ok(Stop::Failed);
             }
@@ -243,7 +244,7 @@ impl Path {
             };
             stride.step = 0.25 * (t - reached.fraction);
             if stride.step < FOLD_STEP && stride.careful && reached.fraction > 0.0 {
-                return Ok(self.past_folds(system, reached, stride, failure));
+                return Ok(self.past_folds(system, reached, bounds, failure));
             }
             let least = LEAST_STEP * reached.fraction.max(FIRST_FRACTION);
             if stride.step < least || reached.steps >= MOST_STEPS {
@@ -260,7 +261,7 @@ impl Path {
         &self,
         system: &mut System,
         reached: &mut Reached,
-        stride: &Stride,
+        bounds: &Bounds,
         failure: Failed,
     ) -> Stop {
         let control = Control { tolerance: 1e-6, iterations: 12, least_step: 1e-1 };
@@ -270,7 +271,7 @@ impl Path {
         let Ok(mut point) = Point::new(self, system, x, t, None) else { return Stop::Failed };
         let mut length = 0.05;
         for _ in 0..MOST_STEPS {
-            if let Some(failure) = stride.ends(system, reached.fraction) {
+            if let Some(failure) = bounds.passed(system, reached.fraction) {
                 reached.failure = Some(failure);
                 break;
             }
@@ -327,15 +328,20 @@ pub struct Stride {
     pub careful: bool,
     /// Whether the place that was reached is solved for once more, on a new mesh.
     pub again: bool,
+}
+
+/// What ends a way before it is gone.
+#[derive(Clone, Copy, Debug)]
+pub struct Bounds {
     /// Factorised elements that are too many.
     pub most_work: usize,
     /// Asked before each step whether to stop.
     pub interrupted: Option<fn() -> bool>,
 }
 
-impl Stride {
+impl Bounds {
     /// Why no other step is made from this fraction of the way, if none is.
-    fn ends(&self, system: &System, fraction: f64) -> Option<Failed> {
+    fn passed(&self, system: &System, fraction: f64) -> Option<Failed> {
         if self.interrupted.is_some_and(|asks| asks()) {
             Some(Failed::Interrupted)
         } else if work(system) >= self.most_work {

@@ -14,7 +14,7 @@ use super::kinks::kinked_by;
 use super::known::{Guess, Known};
 use super::mesh::Mesh;
 use super::newton::{Control, Failed, newton};
-use super::path::{LARGEST_STEP_TURN, Path, Reached, Stop, Stride, largest_turn};
+use super::path::{Bounds, LARGEST_STEP_TURN, Path, Reached, Stop, Stride, largest_turn};
 use super::problem::Problem;
 use super::report::{Report, Status};
 use super::system::{System, Targets};
@@ -180,14 +180,8 @@ pub fn solve(
         } else {
             let step = if guess.is_some() { 1.0 } else { 0.5 };
             let most = problem.largest_step(&known);
-            let stride = Stride {
-                step: most.min(step),
-                most,
-                careful: attempt.gait == Gait::Careful,
-                again: false,
-                most_work: 0,
-                interrupted: settings.interrupted,
-            };
+            let stride =
+                Stride { step: most.min(step), most, careful: attempt.gait == Gait::Careful, again: false };
             followed(settings, mesh, &known, stride, &mut spent)?
         };
         let solved = if reached.failure.is_none() {
@@ -241,8 +235,8 @@ pub fn followed(
     let mut reached = Reached::start(&path);
     loop {
         let mut system = new_system(mesh, settings)?;
-        stride.most_work = spent.left().max(LEAST_WORK);
-        let stop = path.follow(&mut system, &mut reached, &mut stride)?;
+        let bounds = Bounds { most_work: spent.left().max(LEAST_WORK), interrupted: settings.interrupted };
+        let stop = path.follow(&mut system, &mut reached, &mut stride, &bounds)?;
         spent.factorised(&system);
         spent.meshes += 1;
         mesh = system.mesh;

@@ -21,6 +21,8 @@ use faer::sparse::linalg::solvers::Lu;
 use faer::sparse::{SparseColMat, Triplet};
 
 use super::chain::{CARRIED, Changes};
+use super::system::System;
+use super::transfer::Anchor;
 
 /// The equations, by their entries, then their factors.
 pub struct Sparse {
@@ -172,5 +174,39 @@ impl Sparse {
         changes.states = (0..=self.elements).flat_map(|node| at(self.state(node), n)).collect();
         let strains = (0..self.elements).flat_map(|i| at(self.state(i) + n, strains)).collect();
         Some((changes, strains))
+    }
+}
+
+impl System {
+    /// Of an element whose strains are not eliminated: the derivatives of the law in the strains, and in states and
+    /// constants, and of the states at the end in the strains.
+    pub(super) fn uneliminated(&self, i: usize, anchor: &Anchor) -> [Vec<f64>; 3] {
+        let element = &self.elements[i];
+        let columns = self.layout.states().iter().chain(self.layout.constants());
+        // What a unit change at the start is to the element.
+        let changes: Vec<[f64; 9]> = columns
+            .map(|&column| {
+                let mut change = [0.0; 12];
+                change[column] = 1.0;
+                anchor.inputs(&change, &self.units)
+            })
+            .collect();
+        let (mut jacobian, mut inputs) = (Vec::new(), Vec::new());
+        for (own, by_input) in element.jacobian() {
+            jacobian.extend_from_slice(own);
+            inputs.extend(changes.iter().map(|u| by_input.iter().zip(u).map(|(x, u)| x * u).sum::<f64>()));
+        }
+        let mut readout = Vec::new();
+        let [arm, turn] = [0, 1].map(|output| element.readout(output));
+        for &state in self.layout.states() {
+            let value = |k: usize| match state {
+                0..3 => arm[state][k] / self.units.length,
+                3..6 => (0..3).map(|c| anchor.turn[(state - 3, c)] * turn[c][k]).sum(),
+                9.. if element.loaded() => -element.readout(2)[state - 9][k] / self.units.moment,
+                _ => 0.0,
+            };
+            readout.extend((0..4 * self.mesh.gauss.degree).map(value));
+        }
+        [jacobian, inputs, readout]
     }
 }

@@ -35,9 +35,11 @@
 
 use nalgebra::{DMatrix, Matrix6, SMatrix, Vector3};
 
-use super::ends::{End, Hold, Units};
+use super::ends::{At, End, Hold, Units};
+use super::iterate::{Correction, Iterate};
 use super::problem::Problem;
 use super::symmetric::Symmetric;
+use super::system::{System, Targets};
 use super::transfer::Rows;
 
 type Vector = Vector3<f64>;
@@ -70,6 +72,40 @@ impl Problem {
     }
 }
 
+impl System {
+    /// The stability index of a solution under the end conditions, where its sections are stable and its loads have a
+    /// potential; `None` where it cannot be told.
+    pub fn index(&mut self, x: &Iterate, targets: &Targets) -> Option<usize> {
+        self.linearise_open(x, targets).ok()?;
+        if self.sparse.is_none() {
+            self.chain.close();
+        }
+        self.index_here(x, targets.load)
+    }
+
+    /// The same, where the equations were just linearised.
+    #[must_use]
+    pub fn index_here(&self, x: &Iterate, load: f64) -> Option<usize> {
+        self.index_without(x, load, &self.motions())
+    }
+
+    /// The same, where it is known which motions change nothing, at right angles to one another.
+    #[must_use]
+    pub fn index_without(&self, x: &Iterate, load: f64, motions: &[Correction]) -> Option<usize> {
+        if self.sparse.is_some() || !self.mesh.problem.is_conservative() {
+            return None;
+        }
+        let springs: Vec<Spring> =
+            motions.iter().filter_map(|motion| Spring::against(&motion.nodes)).collect();
+        let place = |(i, at): (usize, &At)| {
+            let jump = self.mesh.points[i].map_or(Vector::zeros(), |(force, _)| load * force);
+            Place { position: at.position, force: [at.force + jump, at.force], moment: at.moment() }
+        };
+        let places: Vec<Place> = x.nodes.iter().enumerate().map(place).collect();
+        index(&self.mesh.problem, &self.transfers, &places, &self.units, &springs)
+    }
+}
+
 /// Changes of position and rotation that an end leaves free, as columns.
 fn freedom(hold: Hold) -> DMatrix<f64> {
     let columns: Vec<[f64; 6]> = match hold {
@@ -87,14 +123,13 @@ fn unit(i: usize) -> [f64; 6] {
 }
 
 /// What is known of a node.
-#[derive(Clone, Copy, Debug)]
-pub struct Place {
+struct Place {
     /// Position.
-    pub position: Vector,
+    position: Vector,
     /// Internal force to its left and right.
-    pub force: [Vector; 2],
+    force: [Vector; 2],
     /// Internal moment.
-    pub moment: Vector,
+    moment: Vector,
 }
 
 /// An element: `A`, `B`, `C`, `D`.
@@ -187,18 +222,16 @@ fn symmetric(k: &Matrix6<f64>) -> Matrix6<f64> {
 }
 
 /// A spring of unit stiffness at a node, along a change of its pose.
-#[derive(Clone, Copy, Debug)]
-pub struct Spring {
+struct Spring {
     /// The node.
-    pub node: usize,
+    node: usize,
     /// Position and rotation.
-    pub along: nalgebra::Vector6<f64>,
+    along: nalgebra::Vector6<f64>,
 }
 
 impl Spring {
     /// What holds a motion of all nodes: in the middle, where it is carried by both halves, or else where it moves most.
-    #[must_use]
-    pub fn against(motion: &[[f64; 12]]) -> Option<Self> {
+    fn against(motion: &[[f64; 12]]) -> Option<Self> {
         let pose = |node: usize| nalgebra::Vector6::from_column_slice(&motion[node][..6]);
         let size = |node: usize| pose(node).norm();
         let most = (0..motion.len()).max_by(|&a, &b| size(a).total_cmp(&size(b)))?;
@@ -210,8 +243,7 @@ impl Spring {
 
 /// The index under the end conditions; `None` where it cannot be told. Springs hold free
 /// motions, which change nothing and do not count: they change the sign of nothing else.
-#[must_use]
-pub fn index(
+fn index(
     problem: &Problem,
     rows: &[Rows],
     places: &[Place],

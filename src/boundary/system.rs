@@ -11,12 +11,11 @@ use super::chain::{Border, Chain};
 use super::element::{Entry, Exit, Span, Stages};
 use super::eliminated::Eliminated;
 use super::ends::{Condition, End, Units, conditions, half_angle};
-use super::iterate::{Correction, Iterate, Layout, settle};
+use super::iterate::{Iterate, Layout, settle};
 use super::mesh::Mesh;
 use super::problem::Problem;
 use super::sections::Sections;
 use super::sparse::{Blocks, Sparse};
-use super::stability::{Place, Spring, index};
 use super::transfer::{Anchor, Flexibility, Rows, cayley, transfer};
 use crate::InvalidInput;
 use crate::section::Strain;
@@ -51,7 +50,7 @@ pub struct System {
     /// In place of the chain, where the stages of an element are singular.
     pub(super) sparse: Option<Sparse>,
     /// Of the elements.
-    transfers: Vec<Rows>,
+    pub(super) transfers: Vec<Rows>,
     /// The residual last evaluated.
     pub residual: Residual,
     load: Vec<(Vector, Vector)>,
@@ -443,74 +442,10 @@ impl System {
         }
     }
 
-    /// Of an element whose strains are not eliminated: the derivatives of the law in the strains, and in states and
-    /// constants, and of the states at the end in the strains.
-    fn uneliminated(&self, i: usize, anchor: &Anchor) -> [Vec<f64>; 3] {
-        let element = &self.elements[i];
-        let columns = self.layout.states().iter().chain(self.layout.constants());
-        // What a unit change at the start is to the element.
-        let changes: Vec<[f64; 9]> = columns
-            .map(|&column| {
-                let mut change = [0.0; 12];
-                change[column] = 1.0;
-                anchor.inputs(&change, &self.units)
-            })
-            .collect();
-        let (mut jacobian, mut inputs) = (Vec::new(), Vec::new());
-        for (own, by_input) in element.jacobian() {
-            jacobian.extend_from_slice(own);
-            inputs.extend(changes.iter().map(|u| by_input.iter().zip(u).map(|(x, u)| x * u).sum::<f64>()));
-        }
-        let mut readout = Vec::new();
-        let [arm, turn] = [0, 1].map(|output| element.readout(output));
-        for &state in self.layout.states() {
-            let value = |k: usize| match state {
-                0..3 => arm[state][k] / self.units.length,
-                3..6 => (0..3).map(|c| anchor.turn[(state - 3, c)] * turn[c][k]).sum(),
-                9.. if element.loaded() => -element.readout(2)[state - 9][k] / self.units.moment,
-                _ => 0.0,
-            };
-            readout.extend((0..4 * self.mesh.gauss.degree).map(value));
-        }
-        [jacobian, inputs, readout]
-    }
-
     /// The columns of conditions, states first.
     fn placed(&self, conditions: &[Condition; 6]) -> Vec<f64> {
         let columns = || self.layout.states().iter().chain(self.layout.constants());
         conditions.iter().flat_map(|(row, _)| columns().map(|&column| row[column])).collect()
-    }
-
-    /// The stability index of a solution under the end conditions, where its sections are stable and its loads have a
-    /// potential; `None` where it cannot be told.
-    pub fn index(&mut self, x: &Iterate, targets: &Targets) -> Option<usize> {
-        self.linearise_open(x, targets).ok()?;
-        if self.sparse.is_none() {
-            self.chain.close();
-        }
-        self.index_here(x, targets.load)
-    }
-
-    /// The same, where the equations were just linearised.
-    #[must_use]
-    pub fn index_here(&self, x: &Iterate, load: f64) -> Option<usize> {
-        self.index_without(x, load, &self.motions())
-    }
-
-    /// The same, where it is known which motions change nothing, at right angles to one another.
-    #[must_use]
-    pub fn index_without(&self, x: &Iterate, load: f64, motions: &[Correction]) -> Option<usize> {
-        if self.sparse.is_some() || !self.mesh.problem.is_conservative() {
-            return None;
-        }
-        let springs: Vec<Spring> =
-            motions.iter().filter_map(|motion| Spring::against(&motion.nodes)).collect();
-        let place = |(i, at): (usize, &super::ends::At)| {
-            let jump = self.mesh.points[i].map_or(Vector::zeros(), |(force, _)| load * force);
-            Place { position: at.position, force: [at.force + jump, at.force], moment: at.moment() }
-        };
-        let places: Vec<Place> = x.nodes.iter().enumerate().map(place).collect();
-        index(&self.mesh.problem, &self.transfers, &places, &self.units, &springs)
     }
 
     /// Condition number of what is left when all nodes but the last are eliminated.

@@ -5,9 +5,10 @@ use std::time::{Duration, Instant};
 
 use nalgebra::Vector3;
 
-use super::equations::{Direction, Equations, Failed, Stability, dot, plus, scaled, unit};
+use super::equations::{Direction, Equations, Failed, Stability, dot, plus};
 use super::held_state::HeldState;
 use super::locus::Plane;
+use super::motions::Motions;
 use crate::InvalidInput;
 use crate::boundary::{
     Bordered, Correction, Defects, Failure, Family, Hold, Layout, Line, Problem, System, Units, defects,
@@ -46,10 +47,8 @@ pub struct Held {
     /// Where the equations were linearised.
     linearised: Option<(HeldState, f64)>,
     motions: Option<usize>,
-    /// Motions that change nothing, orthonormal, where the equations were linearised.
-    free: Vec<Direction<Correction>>,
-    /// The unit tangent where it was last linearised, if there are any.
-    tangent: Option<Direction<Correction>>,
+    /// What changes nothing where the equations were linearised.
+    free: Motions<Correction>,
     /// What it took so far.
     pub work: Work,
 }
@@ -58,8 +57,6 @@ pub struct Held {
 const DIFFERENCE: f64 = 1e-7;
 /// A distance, in the norm of changes, at which the equations are nearly the same.
 const NEAR: f64 = 2e-5;
-/// Change of the parameter along a branch, of its arclength, above which it tells the branch from motions that change nothing.
-const STEEP: f64 = 1e-4;
 /// Error that may be that of rounding.
 const LARGEST_ROUNDING: f64 = 1e-7;
 /// Error that a finer mesh is made for, of the tolerance.
@@ -93,8 +90,7 @@ impl Held {
             bordered: None,
             linearised: None,
             motions: None,
-            free: Vec::new(),
-            tangent: None,
+            free: Motions::default(),
             work: Work::default(),
         }
     }
@@ -134,8 +130,7 @@ impl Held {
                 // Free motions are found, whatever they are.
                 system.holds_gliding = false;
                 system.units = *self.units.get_or_insert(system.units);
-                self.free.clear();
-                self.tangent = None;
+                self.free = Motions::default();
                 self.linearised = None;
                 self.nodes = Arc::clone(&x.nodes);
                 Ok(self.system.insert(system))
@@ -179,7 +174,7 @@ impl Equations for Held {
         let t = self.at.as_ref().map_or(0.0, |(t, _)| *t);
         let Ok(system) = self.system(from, t) else { return no_direction().x };
         let x = from.x.difference(&to.x, &system.units);
-        self.without_motions(Direction { x, t: 0.0 }).x
+        self.free.without(self, Direction { x, t: 0.0 }).x
     }
 
     fn added(&self, first: &Correction, then: &Correction) -> Correction {
@@ -257,11 +252,8 @@ impl Equations for Held {
         self.work.factorisation += begun.elapsed();
         self.bordered = Some(bordered);
         self.linearised = Some((x.clone(), t));
-        self.free.clear();
-        self.tangent = None;
-        if !nothing.is_empty() {
-            self.set_apart(nothing, across);
-        }
+        let nothing = nothing.into_iter().map(|Line { x, t }| Direction { x, t });
+        self.free = Motions::apart(self, nothing.collect(), across);
         Ok(())
     }
 
@@ -274,7 +266,7 @@ impl Equations for Held {
     }
 
     fn line(&mut self) -> Direction<Correction> {
-        if let Some(tangent) = &self.tangent {
+        if let Some(tangent) = &self.free.tangent {
             return tangent.clone();
         }
         self.solved(|system, bordered| system.direction(bordered))
@@ -289,8 +281,8 @@ impl Equations for Held {
     fn stability(&mut self, x: &HeldState, _: f64) -> Stability {
         let Some(system) = &self.system else { return Stability::default() };
         let sections = system.sections.with_nodes(&system.mesh, &x.x);
-        let free = self.free.len();
-        let motions: Vec<Correction> = self.free.iter().map(|motion| motion.x.clone()).collect();
+        let free = self.free.all.len();
+        let motions: Vec<Correction> = self.free.all.iter().map(|motion| motion.x.clone()).collect();
         let index = if sections.index > 0 {
             None
         } else {
@@ -469,9 +461,9 @@ impl Held {
         match (&mut self.system, &self.bordered) {
             (Some(system), Some(bordered)) => {
                 let Line { x, t } = system.particular_for(bordered, gaps);
-                let error = self.without_motions(Direction { x, t });
+                let error = self.free.without(self, Direction { x, t });
                 // At right angles to the branch, where no plane sees to that.
-                match &self.tangent {
+                match &self.free.tangent {
                     Some(tangent) => plus(self, &error, -dot(self, tangent, &error), tangent),
                     None => error,
                 }
@@ -484,64 +476,10 @@ impl Held {
         match (&self.system, &self.bordered) {
             (Some(system), Some(bordered)) => {
                 let Line { x, t } = solve(system, bordered);
-                self.without_motions(Direction { x, t })
+                self.free.without(self, Direction { x, t })
             }
             _ => no_direction(),
         }
-    }
-
-    /// Of all that is mapped to nothing, the motions that do not change the parameter, and the tangent of the branch at right angles to them,
-    /// toward where a direction points. Where the parameter hardly changes along the branch that is nearest to the direction.
-    fn set_apart(&mut self, lines: Vec<Line>, across: Option<&Direction<Correction>>) {
-        let mut basis: Vec<Direction<Correction>> = Vec::new();
-        for Line { x, t } in lines {
-            basis.push(self.beside(Direction { x, t }, &basis).1);
-        }
-        let ahead = |line: &Direction<Correction>| across.map_or(line.t, |across| dot(self, across, line));
-        let steep = basis.iter().map(|line| line.t * line.t).sum::<f64>().sqrt();
-        let parts: Vec<f64> = if basis.len() == 1 {
-            vec![1.0]
-        } else if steep > STEEP {
-            basis.iter().map(|line| line.t).collect()
-        } else {
-            basis.iter().map(ahead).collect()
-        };
-        let mut sum = scaled(self, &basis[0], parts[0]);
-        for (part, line) in parts.iter().zip(&basis).skip(1) {
-            sum = plus(self, &sum, *part, line);
-        }
-        let tangent = unit(self, &sum);
-        let tangent = scaled(self, &tangent, ahead(&tangent).signum());
-        let mut apart = vec![tangent.clone()];
-        while apart.len() < basis.len() {
-            // What is farthest from those known.
-            let left = basis.iter().map(|line| self.beside(line.clone(), &apart));
-            let Some((_, farthest)) = left.max_by(|a, b| a.0.total_cmp(&b.0)) else { break };
-            apart.push(farthest);
-        }
-        self.free = apart.split_off(1);
-        self.tangent = Some(tangent);
-    }
-
-    /// The part of a line at right angles to others: its size, and the unit direction.
-    fn beside(
-        &self,
-        mut line: Direction<Correction>,
-        others: &[Direction<Correction>],
-    ) -> (f64, Direction<Correction>) {
-        line = unit(self, &line);
-        for other in others.iter().chain(others) {
-            line = plus(self, &line, -dot(self, other, &line), other);
-        }
-        (dot(self, &line, &line), unit(self, &line))
-    }
-
-    /// The part of a direction at right angles to the motions that change nothing.
-    fn without_motions(&self, mut direction: Direction<Correction>) -> Direction<Correction> {
-        for motion in &self.free {
-            direction = plus(self, &direction, -dot(self, motion, &direction), motion);
-        }
-        direction
     }
 }
 

@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `equations` | what is to be known of a problem |
 //! | `natural`, `held`, `held_state` | a free section, and a ribbon that is held and loaded |
+//! | `motions` | what tells a branch from motions that change nothing |
 //! | `predict`, `correct`, `advance` | a step along a branch |
 //! | `branch` | a branch, its beginning and its ends |
 //! | `walk` | along a branch, as far as it is asked for |
@@ -26,6 +27,7 @@ mod held;
 mod held_state;
 mod locate;
 mod locus;
+mod motions;
 mod natural;
 mod near_miss;
 mod place;

@@ -128,7 +128,7 @@ fn polished<E: Equations>(
     };
     let mut tried: Vec<PointOf<E>> = Vec::new();
     let mut lengths = [f64::INFINITY; 2];
-    let mut previous = f64::NAN;
+    let mut previous: Option<f64> = None;
     let mut spread = SPREAD.min(0.1 * (b.s - a.s));
     // The least error so far, its place, and how many values it is of; the least with values taken as near as now, and the two times before, and whether that helped.
     let mut best = (f64::INFINITY, 0.0, 0);
@@ -145,8 +145,8 @@ fn polished<E: Equations>(
         } else {
             tried.iter().rev().take(MEMORY).map(value).collect()
         });
-        let error = error.max((place - previous).abs());
-        previous = place;
+        let error = previous.map_or(error, |before| error.max((place - before).abs()));
+        previous = Some(place);
         let inside = low.s - NEAREST < place && place < high.s + NEAREST;
         if tried.len() >= MEMORY && inside {
             least[2] = error.min(least[2]);

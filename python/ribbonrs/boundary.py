@@ -41,6 +41,9 @@ TURN = 0.5
 MOST_SAMPLES = 100_000
 """Points that are too many: a mesh for what turns so often is refused."""
 
+SAME = 1e-12
+"""Distance of two places, over the length, that is rounding."""
+
 TOLD = 5
 """Kinks that a warning names."""
 
@@ -128,14 +131,19 @@ def _core_guess(scene: Scene, guess: State | ArrayLike) -> _core._Guess:
         reach = guess.scene.ribbon.length_ratio
         S = np.linspace(0.0, reach, _samples(guess.strains, reach))
         if isinstance(guess.course, Held):
-            S = np.union1d(S, guess.course.breaks)
+            S = np.concatenate([_apart(S, guess.course.breaks), guess.course.breaks])
+        # Strains are known on both sides of a jump.
         jumps = np.array([event.S for event in guess.report.events if event.kind == "jump"])
-        S = np.union1d(S, [*jumps, *np.nextafter(jumps, 0.0)])
+        S = np.concatenate([_apart(S, jumps), np.nextafter(jumps, 0.0), jumps])
+        S.sort()
         known = guess.at(S)
         scaled = length / reach
         poses = scaled * known.position, known.quaternion
         strains, resultants = known.strains / [1.0, scaled, scaled, scaled], (known.force, known.moment)
         S = scaled * S
+        # Both sides of a jump, which rounding may have joined.
+        joined = np.flatnonzero(np.diff(S) <= 0.0)
+        S[joined] = np.nextafter(S[joined + 1], 0.0)
     else:
         strains = _strains(guess)
         given = np.linspace(0.0, length, len(strains))
@@ -148,6 +156,15 @@ def _core_guess(scene: Scene, guess: State | ArrayLike) -> _core._Guess:
     axes = directors(poses[1])
     force, moment = (np.einsum("ni,nij->nj", components, axes) for components in resultants)
     return S, strains, *poses, force, moment
+
+
+def _apart(S: Array, others: Array) -> Array:
+    """The places that are none of others but for rounding."""
+    if others.size == 0:
+        return S
+    after = np.searchsorted(others, S).clip(0, others.size - 1)
+    near = np.minimum(np.abs(others[after] - S), np.abs(others[after - 1] - S))
+    return S[near > SAME * S[-1]]
 
 
 def _samples(strains: Array, length: float) -> int:

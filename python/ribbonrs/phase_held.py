@@ -113,8 +113,10 @@ class _Work:
         for start in (guess, None) if guess is not None else (None,):
             try:
                 return solve(scene, guess=start, n=NODES)
-            except (ConvergenceError, InputError) as error:
+            except ConvergenceError as error:
                 reason = str(error)
+            except InputError as error:
+                return str(error)
         return reason
 
     def _phase(self, place: tuple[int, int]) -> str:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+import time
+
 import numpy as np
 import pytest
 import ribbonrs as rb
@@ -81,3 +84,20 @@ def test_how_many_is_checked(most: object) -> None:
         rb.InputError, match=r"^find_states\.most = .*: expected a whole number from 1 to 1000$"
     ):
         rb.find_states(rb.Scene(STRIP), most=most)  # type: ignore[arg-type]
+
+
+def test_a_search_that_finds_little_ends() -> None:
+    """A few seconds a state: without a bound on all of its work this one takes minutes."""
+    law = rb.LinearLaw(
+        inextensible=True,
+        EI1=0.10469979537448289,
+        EI2=math.inf,
+        GJ=6.301816613682313,
+        intrinsic=(0.0, 0.0, -0.5428858606555135, 0.0032820002845776242),
+    )
+    end = rb.Clamped((0.0, 0.0, 23.581437066262872), twist_turns=-1.3)
+    scene = rb.Scene(rb.Ribbon(30.0, 1.0, 0.1), law=law, start=rb.Pinned(), end=end)
+    begun = time.process_time()
+    states = rb.find_states(scene, most=2)
+    assert 1 <= len(states) <= 2
+    assert time.process_time() - begun < 60.0

@@ -170,6 +170,21 @@ def test_a_guess_of_another_length(states):
     assert state.position[-1] == pytest.approx(rb.solve(longer).position[-1], abs=1e-6)
 
 
+@pytest.mark.parametrize("reach", np.linspace(0.4, 1.5, 12))
+def test_guesses_of_many_lengths(reach):
+    # Places that scaling brings together are the same place.
+    rod = rb.LinearLaw(EI1=100.0, EI2=1.0, GJ=1.0, inextensible=True)
+
+    def column(length):
+        ribbon = rb.Ribbon(length, 1.0, 0.1)
+        return rb.Scene(ribbon, law=rod, end=rb.Free(force=(0.1, 0.0, -1.0)))
+
+    known = rb.solve(column(reach))
+    for length in np.linspace(0.4, 1.5, 12):
+        state = rb.solve(column(length), guess=known)
+        assert state.energy == pytest.approx(rb.solve(column(length)).energy, abs=1e-10)
+
+
 def test_unloaded_ribbons_by_collocation():
     scene = rb.Scene(LEAF, rb.growth.edge(0.03) + rb.growth.chiral(0.02))
     pointwise, collocated = rb.solve(scene), rb.solve(scene, method="collocation")

@@ -230,7 +230,7 @@ class Trace:
 def trace(
     problems: tuple[BoundaryProblem, BoundaryProblem],
     span: tuple[float, float],
-    start: BoundarySolution | _Array | None,
+    start: BoundarySolution,
     start_value: float,
     values: Sequence[float],
     depth: int,

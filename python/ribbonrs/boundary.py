@@ -164,7 +164,8 @@ def _apart(S: Array, others: Array) -> Array:
         return S
     after = np.searchsorted(others, S).clip(0, others.size - 1)
     near = np.minimum(np.abs(others[after] - S), np.abs(others[after - 1] - S))
-    return S[near > SAME * S[-1]]
+    kept: Array = S[near > SAME * S[-1]]
+    return kept
 
 
 def _samples(strains: Array, length: float) -> int:

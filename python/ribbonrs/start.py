@@ -7,7 +7,7 @@ import warnings
 import numpy as np
 
 from . import _core
-from .course import Held, Uniform
+from .course import Held
 from .ends import Closed
 from .equilibrium import solve
 from .errors import ConvergenceError, InputError, RibbonWarning
@@ -36,8 +36,8 @@ def start_of(
     scene: Scene,
     tol: float,
     degree: int | None,
-) -> tuple[float, _core.BoundarySolution | _core._Array]:
-    """Return where a trace starts: value of the parameter, and a solution or strains (4,)."""
+) -> tuple[float, _core.BoundarySolution]:
+    """Return where a trace starts: value of the parameter, and a solution there."""
     if start is None:
         value = span[0]
         with warnings.catch_warnings():
@@ -45,14 +45,15 @@ def start_of(
             start = solve(scene, tol=tol, degree=degree, method="collocation")
     else:
         value = _value_of(parameter, start, span)
-    if isinstance(start.course, Held):
-        value, start = _beside(parameter, start, value, span, tol, degree)
-    if isinstance(start.course, Held):
-        return value, start.course.solution
-    if isinstance(start.course, Uniform):
-        return value, start.course.strain
-    expected = 'a state of a boundary-value problem: solve(..., method="collocation") gives it'
-    raise InputError("start", start, expected)
+    if not isinstance(start.course, Held):
+        start = solve(start.scene, guess=start, tol=tol, degree=degree, method="collocation")
+    value, start = _beside(parameter, start, value, span, tol, degree)
+    return value, _solution(start)
+
+
+def _solution(state: State) -> _core.BoundarySolution:
+    assert isinstance(state.course, Held)  # by collocation
+    return state.course.solution
 
 
 def _value_of(parameter: Parameter, start: State, span: tuple[float, float]) -> float:
@@ -118,9 +119,7 @@ def _free_motions(state: State) -> int:
     """How many there are of what is closed, or the same in all directions: of others there are none."""
     law = state.scene.law
     round_rod = isinstance(law, LinearLaw) and law.EI1 == law.EI2
-    if not isinstance(state.course, Held) or not (round_rod or isinstance(state.scene.start, Closed)):
-        return 0
-    return state.course.solution.free_motions()
+    return _solution(state).free_motions() if round_rod or isinstance(state.scene.start, Closed) else 0
 
 
 def _index(state: State) -> float:

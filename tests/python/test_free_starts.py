@@ -66,3 +66,14 @@ def test_natural_curvature_of_a_ring_that_is_naturally_straight(place):
     # The circle, untwisted: (2 pi - k)^2/2.
     k = branch.parameter
     np.testing.assert_allclose(branch.energy, 0.5 * (2.0 * np.pi - k) ** 2, rtol=1e-9)
+
+
+@pytest.mark.parametrize("found", [rb.solve, lambda scene: rb.natural_shapes(scene.ribbon, scene.growth)[0]])
+def test_natural_shapes_are_starts(found):
+    # Solved without collocation, as what is unloaded and uniform is.
+    leaf = rb.Scene(rb.Ribbon(20.0, 1.0, 0.05), rb.growth.edge(0.005) + rb.growth.chiral(0.02))
+    start = found(leaf)
+    diagram = rb.trace(leaf, "gravity[0]", (-1e-7, 1e-7), start=start, depth=0, values=[0.0])
+    (branch,) = diagram.branches
+    (place,) = (point.place for point in diagram.special_points if point.kind == "value")
+    np.testing.assert_allclose(branch.state(place).strains, start.strains, atol=1e-9)

@@ -44,11 +44,11 @@ pub fn fallen(
             return Ok(unfinished(mesh, reached, spent));
         }
         if reached.failure.is_none() {
-            let solved = adapted(settings, mesh, reached.x, spent)?;
+            let mut solved = adapted(settings, mesh, reached.x, spent)?;
             if solved.report.status == Status::Interrupted {
                 return Ok(solved);
             }
-            if solved.report.status.is_solved() && !is_unstable(problem, settings, &solved)? {
+            if solved.report.status.is_solved() && !is_unstable(problem, settings, &mut solved)? {
                 return Ok(solved);
             }
         }
@@ -60,8 +60,8 @@ pub fn fallen(
         return Ok(unfinished(mesh, reached, spent));
     }
     if reached.failure.is_none() {
-        let solved = adapted(settings, mesh, reached.x, spent)?;
-        let found = solved.report.status.is_solved() && !is_unstable(problem, settings, &solved)?;
+        let mut solved = adapted(settings, mesh, reached.x, spent)?;
+        let found = solved.report.status.is_solved() && !is_unstable(problem, settings, &mut solved)?;
         if found || solved.report.status == Status::Interrupted {
             return Ok(solved);
         }
@@ -138,11 +138,11 @@ pub fn disturbed(mesh: &Mesh, x: &Iterate, disturbance: &Disturbance) -> Result<
 /// Parts of an element at which a guess is given.
 const PARTS: usize = 4;
 
-/// Whether a solution is known to be unstable, by a section or under the end conditions.
+/// Whether a solution is known to be unstable, by a section or under the end conditions. It keeps its index.
 pub fn is_unstable(
     problem: &Arc<Problem>,
     settings: &Settings,
-    solved: &Solved,
+    solved: &mut Solved,
 ) -> Result<bool, InvalidInput> {
     let mesh = Mesh::new(problem, solved.nodes.clone(), settings.degree)?;
     for i in 0..mesh.elements() {
@@ -155,6 +155,7 @@ pub fn is_unstable(
         }
     }
     let index = System::new(mesh)?.index(&solved.x, &goal(problem));
+    solved.index = Some(index);
     Ok(index.is_some_and(|index| index > 0))
 }
 

@@ -129,6 +129,16 @@ impl Problem {
         self.has_line_force() || self.has_line_couple()
     }
 
+    /// Whether nothing acts on the ribbon, and an end is free: its natural shape is an equilibrium.
+    #[must_use]
+    pub fn rests(&self) -> bool {
+        let none = |force: &Vector, moment: &Vector| *force == Vector::zeros() && *moment == Vector::zeros();
+        self.ends.iter().any(|end| end.hold == Hold::Free)
+            && self.ends.iter().all(|end| none(&end.force, &end.moment))
+            && self.points.iter().all(|point| none(&point.force, &point.moment))
+            && !self.has_line_load()
+    }
+
     /// Whether the ribbon is the same everywhere, unloaded, and clamped to itself, so that it may glide along itself: the
     /// two ends at one place, turned by full or half turns about the tangent.
     #[must_use]

@@ -18,7 +18,7 @@ use super::mesh::Mesh;
 use super::problem::Problem;
 use super::report::{Report, Status};
 use super::sections::sections_at;
-use super::solve::{Settings, goal, solve};
+use super::solve::{Settings, Solved, goal, solve};
 use super::step::{Stepper, pointwise};
 use super::system::System;
 use crate::InvalidInput;
@@ -159,8 +159,14 @@ impl Solution {
         settings: &Settings,
         guess: Option<&Guess>,
     ) -> Result<Self, InvalidInput> {
-        let solved = solve(&problem, settings, guess)?;
-        Self::from_parts(problem, settings.degree, solved.nodes, solved.x, solved.report)
+        let Solved { nodes, x, report, index } = solve(&problem, settings, guess)?;
+        let Some(index) = index else {
+            return Self::from_parts(problem, settings.degree, nodes, x, report);
+        };
+        let mesh = Mesh::new(&problem, nodes, settings.degree)?;
+        let solution = Self::on(&mesh, x, report)?;
+        let index = if solution.section_index == 0 { index } else { None };
+        Ok(Self { index, ..solution })
     }
 
     /// A solution from its parts.

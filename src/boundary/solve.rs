@@ -65,6 +65,8 @@ pub struct Solved {
     pub x: Iterate,
     /// How it was found.
     pub report: Report,
+    /// Its stability index, if that was asked for, which may not be told.
+    pub index: Option<Option<usize>>,
 }
 
 /// A try: how much finer the first mesh is, the size of the imperfection, what the way begins with, and how it is gone.
@@ -80,6 +82,8 @@ struct Attempt {
 enum From {
     /// The first, second or third choice of [`Problem::known`], or a guess in place of the first.
     Choice(usize),
+    /// The natural shape of a ribbon on which nothing acts.
+    Rest,
     /// The natural shape, or a guess.
     Natural,
     /// The straight one.
@@ -98,7 +102,8 @@ enum Gait {
 }
 
 /// What is tried in turn.
-const ATTEMPTS: [Attempt; 10] = [
+const ATTEMPTS: [Attempt; 11] = [
+    Attempt { finer: 1, imperfection: 0.0, from: From::Rest, gait: Gait::Quick },
     Attempt { finer: 1, imperfection: 1.0, from: From::Choice(0), gait: Gait::Quick },
     Attempt { finer: 4, imperfection: 1.0, from: From::Choice(0), gait: Gait::Careful },
     Attempt { finer: 4, imperfection: 1.0, from: From::Natural, gait: Gait::Creeping },
@@ -117,6 +122,7 @@ impl Problem {
         let (natural, straight, twisted) =
             (Known::Natural(size), Known::Straight(size), Known::Twisted(size));
         let choice = match from {
+            From::Rest => return self.rests().then_some(natural),
             From::Straight => return Some(straight),
             From::Natural => return (self.ends[1].hold != Hold::Closed).then_some(natural),
             From::Choice(choice) => choice,
@@ -178,13 +184,13 @@ pub fn solve(
         let (mesh, reached) = if attempt.gait == Gait::Creeping {
             crept(settings, mesh, &known, &mut spent)?
         } else {
-            let step = if guess.is_some() { 1.0 } else { 0.5 };
+            let step = if guess.is_some() || attempt.from == From::Rest { 1.0 } else { 0.5 };
             let most = problem.largest_step(&known);
             let stride =
                 Stride { step: most.min(step), most, careful: attempt.gait == Gait::Careful, again: false };
             followed(settings, mesh, &known, stride, &mut spent)?
         };
-        let solved = if reached.failure.is_none() {
+        let mut solved = if reached.failure.is_none() {
             let before = reached.before;
             let mut solved = if attempt.gait == Gait::Creeping {
                 crept_and_adapted(settings, mesh, reached.x, &mut spent)?
@@ -193,7 +199,7 @@ pub fn solve(
             };
             // What a mesh finds and a finer one does not confirm is no state: the one before is.
             if let (Status::Diverged, Some((fraction, nodes, x))) = (solved.report.status, before) {
-                solved = Solved { nodes, x, report: Report { fraction, ..solved.report } };
+                solved = Solved { nodes, x, report: Report { fraction, ..solved.report }, index: None };
             }
             solved
         } else {
@@ -205,8 +211,11 @@ pub fn solve(
         }
         if solved.report.status.is_solved() {
             // A guess is for the state near it, whatever that is.
-            if guess.is_some() || !is_unstable(problem, settings, &solved)? {
+            if guess.is_some() || !is_unstable(problem, settings, &mut solved)? {
                 return Ok(solved);
+            }
+            if attempt.from == From::Rest {
+                continue;
             }
             return fallen(problem, settings, solved, &mut spent);
         }
@@ -359,7 +368,7 @@ pub fn unfinished(mesh: Mesh, reached: Reached, spent: &Spent) -> Solved {
     };
     let reason = failure.map_or_else(String::new, ToString::to_string);
     let report = spent.report(status, reason, reached.fraction, reached.norms);
-    Solved { nodes: mesh.nodes, x: reached.x, report }
+    Solved { nodes: mesh.nodes, x: reached.x, report, index: None }
 }
 
 /// As [`adapted`], and where a finer mesh does not confirm what the ribbon came to on a coarse one it creeps on there.
@@ -410,7 +419,7 @@ pub fn adapted(
     loop {
         if settings.interrupted.is_some_and(|asks| asks()) {
             let report = spent.report(Status::Interrupted, "interrupted".to_owned(), 1.0, Vec::new());
-            return Ok(Solved { nodes: mesh.nodes, x, report });
+            return Ok(Solved { nodes: mesh.nodes, x, report, index: None });
         }
         let mut system = new_system(mesh, settings)?;
         let ended = newton(&mut system, x.clone(), &goal, &control);
@@ -420,13 +429,13 @@ pub fn adapted(
             let mesh = system.mesh;
             let reason = format!("on a mesh of {} elements {failure}", mesh.elements());
             let report = spent.report(Status::Diverged, reason, 1.0, ended.norms);
-            return Ok(Solved { nodes: mesh.nodes, x, report });
+            return Ok(Solved { nodes: mesh.nodes, x, report, index: None });
         }
         if largest_turn(&x, &ended.x) > LARGEST_STEP_TURN {
             let mesh = system.mesh;
             let reason = format!("on a mesh of {} elements {}", mesh.elements(), Failed::Jumped);
             let report = spent.report(Status::Diverged, reason, 1.0, ended.norms);
-            return Ok(Solved { nodes: mesh.nodes, x, report });
+            return Ok(Solved { nodes: mesh.nodes, x, report, index: None });
         }
         x = ended.x;
         let estimated = estimate(&mut system, &x, &goal)?;
@@ -472,7 +481,7 @@ pub fn adapted(
                 report.status = Status::Diverged;
                 report.reason = format!("the independent check finds a residual of {residual:.1e}");
             }
-            return Ok(Solved { nodes: mesh.nodes, x, report });
+            return Ok(Solved { nodes: mesh.nodes, x, report, index: None });
         }
         before = Some(error);
         let nodes = hidden.unwrap_or_else(|| refined(&mesh, &estimated, settings.tolerance));

@@ -80,7 +80,7 @@ fn walked<E: Plane>(
     let mut found: Vec<Here<E>> = Vec::new();
     equations.hold(place[1], false);
     let mut point = start.clone();
-    let mut off = direction(equations, start, kind);
+    let mut off = directions(equations, start, kind, 1).into_iter().next();
     // Of the two branches that meet there the one along which the parameter changes, and the other.
     if let Some(other) = off.take_if(|off| off.t.abs() > point.along.t.abs()) {
         off = Some(std::mem::replace(&mut point.along, other));
@@ -180,15 +180,20 @@ fn to_end<E: Plane>(
 const MOST_TO_END: usize = 10;
 const ENDED: f64 = 1e-11;
 
-/// The direction of what branches off at a branch point.
-fn direction<E: Plane>(equations: &mut E, point: &PointOf<E>, kind: SpecialKind) -> Option<DirectionOf<E>> {
+/// The directions of what branches off at a branch point of this multiplicity, orthonormal.
+fn directions<E: Plane>(
+    equations: &mut E,
+    point: &PointOf<E>,
+    kind: SpecialKind,
+    multiplicity: usize,
+) -> Vec<DirectionOf<E>> {
     match kind {
-        SpecialKind::BranchPoint => across(equations, point, 1).into_iter().next(),
-        _ => None,
+        SpecialKind::BranchPoint => across(equations, point, multiplicity),
+        _ => Vec::new(),
     }
 }
 
-/// Cosine of the angle between such directions of the same curve, at least.
+/// Cosine of the angle of such a direction with those at the next point of the same curve, at least.
 const ALIKE: f64 = 0.95;
 
 /// The special point near another, where it is expected to be shifted.
@@ -217,11 +222,14 @@ fn near<E: Plane>(
         // Near an end of the piece that end is nearly singular, and may be on another branch.
         let inside = |special: &Found<E>| special.kind == kind && special.point.s.abs() < INSIDE * reach;
         for Found { point, multiplicity: count, .. } in found.into_iter().filter(inside) {
-            let here = direction(equations, &point, kind);
-            let alike =
-                off.as_ref().zip(here.as_ref()).is_none_or(|(a, b)| dot(equations, a, b).abs() > ALIKE);
-            if alike && multiplicity.is_none_or(|known| known == count) {
-                return Some((point, here, count));
+            let here = directions(equations, &point, kind, count);
+            // Where several branch off they span a plane, of which any may be given.
+            let within = |off: &DirectionOf<E>| {
+                let parts = here.iter().map(|other| dot(equations, off, other));
+                here.is_empty() || parts.map(|part| part * part).sum::<f64>().sqrt() > ALIKE
+            };
+            if off.as_ref().is_none_or(within) && multiplicity.is_none_or(|known| known == count) {
+                return Some((point, here.into_iter().next(), count));
             }
         }
         reach *= 2.0;

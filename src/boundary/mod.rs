@@ -81,4 +81,4 @@ pub use solution::{Energies, SectionState, Solution, Wrench, energies};
 pub use solve::{DEGREE, Settings, Solved, goal};
 pub use step::Stepper;
 pub use system::{Failure, Residual, System, Targets};
-pub use waves::divided_for_waves;
+pub use waves::{divided, parts_for_waves};

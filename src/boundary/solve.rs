@@ -18,7 +18,7 @@ use super::path::{Bounds, LARGEST_STEP_TURN, Path, Reached, Stop, Stride, larges
 use super::problem::Problem;
 use super::report::{Report, Status};
 use super::system::{System, Targets};
-use super::waves::divided_for_waves;
+use super::waves::{divided, parts_for_waves};
 use crate::InvalidInput;
 
 /// What is asked of the solver.
@@ -447,14 +447,15 @@ pub fn adapted(
         // Once may be a mesh that was still too coarse; orders of two and more halve the error soon.
         let stalled = stalls >= 2 && error < LARGEST_ROUNDING;
         let settled = error <= settings.tolerance || stalled;
-        let hidden = if settled && settings.adaptive { divided_for_waves(&mesh, &x)? } else { None };
-        let wanted = hidden.as_ref().map_or(count + 1, |nodes| nodes.len() - 1);
+        let hidden = if settled && settings.adaptive { parts_for_waves(&mesh, &x)? } else { None };
+        let wanted = hidden.iter().flatten().fold(0_usize, |sum, parts| sum.saturating_add(*parts));
+        let finer = wanted.max(count + 1);
         let status = if settled && hidden.is_none() {
             Some(if error <= settings.tolerance { Status::Converged } else { Status::RoundingLimited })
         } else if !settings.adaptive
-            || wanted > settings.most_elements
+            || finer > settings.most_elements
             || spent.meshes >= meshes + MOST_MESHES
-            || spent.left() < FEWEST * count
+            || spent.left() < FEWEST * finer
         {
             Some(Status::Unresolved)
         } else {
@@ -484,7 +485,10 @@ pub fn adapted(
             return Ok(Solved { nodes: mesh.nodes, x, report, index: None });
         }
         before = Some(error);
-        let nodes = hidden.unwrap_or_else(|| refined(&mesh, &estimated, settings.tolerance));
+        let nodes = match hidden {
+            Some(parts) => divided(&mesh, &parts),
+            None => refined(&mesh, &estimated, settings.tolerance),
+        };
         let finer = Mesh::new(&problem, nodes, settings.degree)?;
         x = transferred(&x, &mesh, &finer)?;
         mesh = finer;

@@ -22,16 +22,21 @@
 //! `F` of all that is behind, and by Sylvester's law of inertia the negative eigenvalues of the pivots are counted,
 //!
 //! ```text
-//! [ -F_i   1      ]
-//! [  1     D^-1 C ],      the last  [ -F_N   Z ]
-//!                                   [ Z^T    0 ]  with what the end leaves free.
+//! [ -F_i   1      ]                  [ -F_N   Z  -Y_N ]
+//! [  1     D^-1 C ],       the last  [  Z^T   0   0   ]  with what the end leaves free, and the start.
+//!                                    [ -Y_N^T 0   E_N ]
 //! ```
 //!
 //! With `F = G S G^T`, `S` of signs, and `K = D^-1 C` such a pivot has as many as `T = S + G^T K G` more than `S`, beside
 //! six: if `F` is regular, since `K + F^-1 = G^-T T G^-1`, else by continuity. `F` may be singular, and is where a ribbon is
 //! rigid. The next one is `B D^-1 + X^T T^-1 X` with `X = G^T D^-1`.
 //!
-//! What the start leaves free is held by very soft springs.
+//! A change of pose `y` that the start leaves free, held by very soft springs, goes along to the end: it moves the end of
+//! what is behind by `Y y`, `Y_0 = Z_0`, and has the energy `y.E y/2`, with `V = G^T K Y`
+//!
+//! ```text
+//! Y' = D^-T (Y - G T^-1 V),   E' = E + Y^T K Y - V^T T^-1 V.
+//! ```
 
 use nalgebra::{DMatrix, Matrix6, SMatrix, Vector3};
 
@@ -53,10 +58,8 @@ const SINGULAR: f64 = 1e4;
 const SPRINGS: [f64; 4] = [0.0, 0.2, 0.5, 1.2];
 /// Stiffness of the springs at the start, in units of the soft stiffness of the whole ribbon.
 const SPRING: f64 = 1e-7;
-/// Part of the flexibility of all elements, and of the springs, that stands for none at all, a few roundings, where the ends hold what is
-/// rigid.
+/// Part of the flexibility of all elements that stands for none at all, a few roundings, where the ends hold what is rigid.
 const ROUNDING: f64 = 1e-13;
-const ROUNDING_OF_SPRINGS: f64 = 2e-15;
 
 impl Problem {
     /// Whether the loads have a potential: a moment that is fixed in space has none, unless it is about a hinge.
@@ -251,11 +254,13 @@ fn index(
     holding: &[Spring],
 ) -> Option<usize> {
     let rigid = problem.law.at(0.0).ok()?.compliance.min() == 0.0;
-    let free = freedom(problem.ends[0].hold);
-    let springs = &free * free.transpose() / SPRING;
-    // F, of all that is behind.
-    let mut behind = Matrix6::from_iterator(springs.iter().copied());
-    let (mut index, mut rounding) = (0_isize, ROUNDING_OF_SPRINGS * behind.amax());
+    // F, Y and E, of all that is behind; what is not free is padded by ones.
+    let mut behind = Matrix6::zeros();
+    let start = freedom(problem.ends[0].hold);
+    let (mut moved, mut energy) = (Matrix6::zeros(), Matrix6::identity());
+    moved.columns_mut(0, start.ncols()).copy_from(&start);
+    (0..start.ncols()).for_each(|i| energy[(i, i)] = SPRING);
+    let (mut index, mut rounding) = (0_isize, 0.0);
     let held = |node: usize| {
         let here = holding.iter().filter(|spring| spring.node == node);
         here.fold(Matrix6::zeros(), |sum, spring| sum + spring.along * spring.along.transpose())
@@ -274,16 +279,22 @@ fn index(
         let pivot = Symmetric::new(&pivot)?;
         index += pivot.negative(0.0) as isize - signs.iter().filter(|sign| **sign < 0.0).count() as isize;
         let across = root.tr_mul(&element.carried);
+        let turned = root.tr_mul(&(stiffness * moved));
+        let yielding = pivot.solve(&turned);
+        energy += symmetric(&(moved.tr_mul(&(stiffness * moved)) - turned.tr_mul(&yielding)));
+        moved = element.carried.tr_mul(&(moved - root * yielding));
         behind = symmetric(&(element.flexibility + across.tr_mul(&pivot.solve(&across))));
     }
-    // What the end leaves free, padded by ones.
     let free = freedom(problem.ends[1].hold);
-    let mut last = SMatrix::<f64, 12, 12>::identity();
+    let mut last = SMatrix::<f64, 18, 18>::identity();
     last.fixed_view_mut::<6, 6>(0, 0).copy_from(&-behind);
     last.view_mut((0, 6), (6, free.ncols())).copy_from(&free);
     last.view_mut((6, 0), (free.ncols(), 6)).copy_from(&free.transpose());
     let spring = free.transpose() * (held(rows.len()) - Matrix6::from_diagonal_element(taken)) * &free;
     last.view_mut((6, 6), (free.ncols(), free.ncols())).copy_from(&spring);
+    last.fixed_view_mut::<6, 6>(0, 12).copy_from(&-moved);
+    last.fixed_view_mut::<6, 6>(12, 0).copy_from(&-moved.transpose());
+    last.fixed_view_mut::<6, 6>(12, 12).copy_from(&energy);
     // No flexibility at all is a little of it.
     if rigid {
         (0..6).for_each(|i| last[(i, i)] -= rounding);

@@ -35,14 +35,14 @@ const AIM: f64 = 0.75;
 /// Radians of a wave along all the ribbon for it to buckle, a little less than the quarter of one of a cantilever.
 const LEAST: f64 = 1.5;
 
-/// Nodes of a mesh with elements divided that are too long for the ways in which they may buckle; `None` if none is.
+/// Into how many parts each element is to be divided for the ways in which it may buckle; `None` if none is.
 ///
 /// # Errors
 /// Where a section is refused.
-pub fn divided_for_waves(mesh: &Mesh, x: &Iterate) -> Result<Option<Vec<f64>>, InvalidInput> {
+pub fn parts_for_waves(mesh: &Mesh, x: &Iterate) -> Result<Option<Vec<usize>>, InvalidInput> {
     let degree = mesh.gauss.degree;
     let most = (RADIANS + RADIANS_BY_DEGREE * (degree - 1) as f64).min(MOST_RADIANS);
-    let mut nodes = vec![0.0];
+    let mut parts = Vec::with_capacity(mesh.elements());
     let mut made = Vec::new();
     for i in 0..mesh.elements() {
         let response = &mesh.responses(i, &mut made)?[0];
@@ -58,12 +58,21 @@ pub fn divided_for_waves(mesh: &Mesh, x: &Iterate) -> Result<Option<Vec<f64>>, I
         let curvature = strain.rows(1, 3).norm();
         let radians =
             if wave * mesh.problem.length > LEAST { (wave + 0.5 * curvature) * mesh.length(i) } else { 0.0 };
-        let parts = if radians > most { (radians / (AIM * most)).ceil() } else { 1.0 };
+        parts.push(if radians > most { (radians / (AIM * most)).ceil() as usize } else { 1 });
+    }
+    Ok(parts.iter().any(|&count| count > 1).then_some(parts))
+}
+
+/// Nodes of a mesh with its elements divided into parts.
+#[must_use]
+pub fn divided(mesh: &Mesh, parts: &[usize]) -> Vec<f64> {
+    let mut nodes = vec![0.0];
+    for (i, &parts) in parts.iter().enumerate() {
         let (from, h) = (mesh.nodes[i], mesh.length(i));
-        nodes.extend((1..parts as usize).map(|part| from + h * part as f64 / parts));
+        nodes.extend((1..parts).map(|part| from + h * part as f64 / parts as f64));
         nodes.push(mesh.nodes[i + 1]);
     }
-    Ok((nodes.len() > mesh.nodes.len()).then_some(nodes))
+    nodes
 }
 
 /// Compliances in extension, bending and torsion, of the tangent where it is stable.

@@ -8,7 +8,7 @@ use super::equations::Failed;
 use super::held::Held;
 use crate::InvalidInput;
 use crate::boundary::{
-    At, Estimate, Iterate, Mesh, Problem, Solution, Stepper, divided_for_waves, refined, symmetrised,
+    At, Estimate, Iterate, Mesh, Problem, Solution, Stepper, divided, parts_for_waves, refined, symmetrised,
     transferred,
 };
 use crate::section::Strain;
@@ -83,7 +83,12 @@ impl HeldState {
     /// # Errors
     /// Where that has too many elements, or a section is refused.
     pub fn showing_waves(&self, mesh: &Mesh) -> Result<Option<Self>, Failed> {
-        divided_for_waves(mesh, &self.x)?.map(|nodes| self.on_finer(mesh, nodes)).transpose()
+        let Some(parts) = parts_for_waves(mesh, &self.x)? else { return Ok(None) };
+        let count = parts.iter().fold(0_usize, |sum, parts| sum.saturating_add(*parts));
+        if count > MOST_ELEMENTS {
+            return Err(Failed::Fine(count));
+        }
+        self.on_finer(mesh, divided(mesh, &parts)).map(Some)
     }
 
     fn on_finer(&self, mesh: &Mesh, nodes: Vec<f64>) -> Result<Self, Failed> {

@@ -66,9 +66,36 @@ impl System {
     }
 
     /// Unit motions that change nothing, at right angles to one another: a rod that is the same in all directions may turn about the line of
-    /// its ends and loads, a closed ribbon glide along itself.
+    /// its ends and loads, a closed ribbon glide along itself. Wrenches that move nothing are none, see [`System::self_stresses`].
     #[must_use]
     pub fn motions(&self) -> Vec<Correction> {
+        self.free().0
+    }
+
+    /// Wrenches that move nothing: what is rigid bears any of them between ends that hold it.
+    #[must_use]
+    pub fn self_stresses(&self) -> Vec<Correction> {
+        self.free().1
+    }
+
+    fn free(&self) -> (Vec<Correction>, Vec<Correction>) {
+        let (mut motions, mut stresses): (Vec<Correction>, Vec<Correction>) = (Vec::new(), Vec::new());
+        for mut line in self.kernel() {
+            for other in &motions {
+                line = line.plus(-line.dot(other, &self.mesh), other);
+            }
+            let square = line.dot(&line, &self.mesh);
+            if line.is_idle(square) {
+                stresses.push(line);
+            } else {
+                motions.push(line.scaled(1.0 / square.sqrt()));
+            }
+        }
+        (motions, stresses)
+    }
+
+    /// What the equations map to nothing.
+    fn kernel(&self) -> Vec<Correction> {
         let none = || Rhs {
             strains: vec![Strain::zeros(); self.mesh.stages()],
             nodes: Reduced {
@@ -76,15 +103,7 @@ impl System {
                 last: Vec::new(),
             },
         };
-        let mut motions: Vec<Correction> = Vec::new();
-        for last in self.chain.kernel() {
-            let mut motion = self.expanded(none(), &last);
-            for other in &motions {
-                motion = motion.plus(-motion.dot(other, &self.mesh), other);
-            }
-            motions.push(motion.scaled(1.0 / motion.dot(&motion, &self.mesh).sqrt()));
-        }
-        motions
+        self.chain.kernel().into_iter().map(|last| self.expanded(none(), &last)).collect()
     }
 
     /// The correction that gives each element another end: what its position, rotation and moment about the origin

@@ -224,6 +224,19 @@ impl Correction {
     }
 }
 
+impl Correction {
+    /// Whether it is a change of force and moment alone, but for rounding, if its pose and strains have this square.
+    #[must_use]
+    pub fn is_idle(&self, square: f64) -> bool {
+        let wrench = |change: &[f64; 12]| change[6..].iter().map(|x| x * x).sum::<f64>();
+        let most = self.nodes.iter().map(wrench).fold(0.0, f64::max);
+        square.is_nan() || square <= IDLE * IDLE * most
+    }
+}
+
+/// Change of pose, of that of force and moment, that is rounding.
+const IDLE: f64 = 1e-8;
+
 /// Makes what is known but for its value at the start follow from that: the force everywhere, whatever the layout, for
 /// dead loads are given; and the moment about the origin, if no force is distributed. `load` is the factor of the loads.
 pub fn settle(mesh: &Mesh, layout: Layout, x: &mut Iterate, load: f64) {

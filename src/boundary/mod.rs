@@ -19,6 +19,7 @@
 //! | `creep`, `kinks` | the same where no equilibria lead on: viscous, to a stable one, with sections in several phases |
 //! | `step`, `adapt`, `waves` | dense output, errors and meshes |
 //! | `check` | an independent residual |
+//! | `stress` | wrenches that nothing tells, of what is rigid |
 //! | `stability`, `fallen` | the index under the end conditions, and what unstable states fall into |
 //! | `deflation` | several equilibria |
 //! | `solve`, `report`, `solution` | the whole, and what it gives |
@@ -56,6 +57,7 @@ mod solve;
 mod sparse;
 mod stability;
 mod step;
+mod stress;
 mod symmetric;
 mod system;
 mod transfer;
@@ -80,5 +82,6 @@ pub use sections::Sections;
 pub use solution::{Energies, SectionState, Solution, Wrench, energies};
 pub use solve::{DEGREE, Settings, Solved, goal};
 pub use step::Stepper;
+pub use stress::SelfStress;
 pub use system::{Failure, Residual, System, Targets};
 pub use waves::{divided, parts_for_waves};

@@ -23,6 +23,8 @@ pub enum Panel {
     },
 }
 
+/// Size of a column, of the largest, that is none.
+const NONE: f64 = 1e-14;
 /// A solution so much larger than its right-hand side tells of a small singular value.
 const LARGE: f64 = 1e4;
 /// Singular values below this part of the next vanish: at points of a branch, and of what is known no better, and at a solution, which is
@@ -40,10 +42,12 @@ impl Panel {
     #[must_use]
     pub fn new(matrix: &DMatrix<f64>, sizes: &[f64], nullity: Option<usize>, vanishing: f64) -> Self {
         let size = matrix.nrows();
-        // Nothing is divided by a size that is none.
         let own = matrix.column_iter().map(|column| column.amax());
         let scale = sizes.iter().zip(own).map(|(size, own)| size.max(own));
-        let scale = DVector::from_iterator(size, scale.map(|size| if size > 1e-200 { size } else { 1.0 }));
+        let scale = DVector::from_iterator(size, scale);
+        // Nothing is divided by a size that is none but for rounding, as those of forces that bend nothing.
+        let none = NONE * scale.max();
+        let scale = scale.map(|size| if size > none { size } else { 1.0 });
         let regular = Self::Regular(Factors::of(matrix.transpose().as_slice(), size));
         // Of no particular direction.
         let trial = regular.solve((0..size).map(|i| 1.0 + 0.1 * i as f64).collect());

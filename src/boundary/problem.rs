@@ -129,12 +129,11 @@ impl Problem {
         self.has_line_force() || self.has_line_couple()
     }
 
-    /// Whether nothing acts on the ribbon, and an end is free: its natural shape is an equilibrium.
+    /// Whether nothing acts on the ribbon.
     #[must_use]
     pub fn rests(&self) -> bool {
         let none = |force: &Vector, moment: &Vector| *force == Vector::zeros() && *moment == Vector::zeros();
-        self.ends.iter().any(|end| end.hold == Hold::Free)
-            && self.ends.iter().all(|end| none(&end.force, &end.moment))
+        self.ends.iter().all(|end| none(&end.force, &end.moment))
             && self.points.iter().all(|point| none(&point.force, &point.moment))
             && !self.has_line_load()
     }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::adapt::{estimate, refined, transferred};
 use super::check;
 use super::creep::{crept, crept_on};
-use super::ends::Hold;
+use super::ends::{At, End, Hold, conditions};
 use super::fallen::{fallen, is_unstable};
 use super::iterate::{Iterate, Layout};
 use super::kinks::kinked_by;
@@ -17,6 +17,7 @@ use super::newton::{Control, Failed, newton};
 use super::path::{Bounds, LARGEST_STEP_TURN, Path, Reached, Stop, Stride, largest_turn};
 use super::problem::Problem;
 use super::report::{Report, Status};
+use super::stress::SelfStress;
 use super::system::{System, Targets};
 use super::waves::{divided, parts_for_waves};
 use crate::InvalidInput;
@@ -82,7 +83,7 @@ struct Attempt {
 enum From {
     /// The first, second or third choice of [`Problem::known`], or a guess in place of the first.
     Choice(usize),
-    /// The natural shape of a ribbon on which nothing acts.
+    /// The natural shape of a ribbon on which nothing acts, if it fits between its ends.
     Rest,
     /// The natural shape, or a guess.
     Natural,
@@ -122,7 +123,7 @@ impl Problem {
         let (natural, straight, twisted) =
             (Known::Natural(size), Known::Straight(size), Known::Twisted(size));
         let choice = match from {
-            From::Rest => return self.rests().then_some(natural),
+            From::Rest => return (self.rests() && self.ends[1].hold != Hold::Closed).then_some(natural),
             From::Straight => return Some(straight),
             From::Natural => return (self.ends[1].hold != Hold::Closed).then_some(natural),
             From::Choice(choice) => choice,
@@ -181,6 +182,9 @@ pub fn solve(
             break;
         }
         let mesh = Mesh::new(&kinked, nodes, settings.degree)?;
+        if attempt.from == From::Rest && !fits(&mesh, &known)? {
+            continue;
+        }
         let (mesh, reached) = if attempt.gait == Gait::Creeping {
             crept(settings, mesh, &known, &mut spent)?
         } else {
@@ -225,6 +229,19 @@ pub fn solve(
     }
     best.ok_or_else(|| InvalidInput::new("length", problem.length, "a ribbon that fewer elements resolve"))
 }
+
+/// Whether a known shape at rest meets the end conditions.
+fn fits(mesh: &Mesh, known: &Known<'_>) -> Result<bool, InvalidInput> {
+    let (problem, x) = (&mesh.problem, Path::new(mesh, known)?.x);
+    let (units, ends) = (problem.units()?, goal(problem).ends);
+    let met = |end: &End, at: &At, outward: f64| {
+        conditions(end, at, outward, &units).iter().all(|(_, missed)| missed.abs() < FITS)
+    };
+    Ok(met(&ends[0], &x.nodes[0], -1.0) && met(&ends[1], &x.nodes[mesh.elements()], 1.0))
+}
+
+/// What an end misses, in units, that is rounding or the error of a mesh.
+const FITS: f64 = 1e-6;
 
 /// What is asked for in the end.
 #[must_use]
@@ -437,7 +454,7 @@ pub fn adapted(
             let report = spent.report(Status::Diverged, reason, 1.0, ended.norms);
             return Ok(Solved { nodes: mesh.nodes, x, report, index: None });
         }
-        x = ended.x;
+        x = SelfStress::new(&ended.x.nodes, &system.self_stresses(), system.units).relieved(ended.x);
         let estimated = estimate(&mut system, &x, &goal)?;
         let error = estimated.error;
         let condition = system.condition();

@@ -11,8 +11,8 @@ use super::locus::Plane;
 use super::motions::Motions;
 use crate::InvalidInput;
 use crate::boundary::{
-    Bordered, Correction, Defects, Failure, Family, Hold, Layout, Line, Problem, System, Units, defects,
-    goal, transferred,
+    Bordered, Correction, Defects, Failure, Family, Hold, Layout, Line, Problem, SelfStress, System, Units,
+    defects, goal, transferred,
 };
 
 /// How long the parts of the work took, but for the rest.
@@ -49,6 +49,8 @@ pub struct Held {
     motions: Option<usize>,
     /// What changes nothing where the equations were linearised.
     free: Motions<Correction>,
+    /// Wrenches that move nothing, where it was last linearised, if there are any.
+    stress: Option<SelfStress>,
     /// What it took so far.
     pub work: Work,
 }
@@ -91,6 +93,7 @@ impl Held {
             linearised: None,
             motions: None,
             free: Motions::default(),
+            stress: None,
             work: Work::default(),
         }
     }
@@ -131,6 +134,7 @@ impl Held {
                 system.holds_gliding = false;
                 system.units = *self.units.get_or_insert(system.units);
                 self.free = Motions::default();
+                self.stress = None;
                 self.linearised = None;
                 self.nodes = Arc::clone(&x.nodes);
                 Ok(self.system.insert(system))
@@ -184,6 +188,9 @@ impl Equations for Held {
     fn settled(&mut self, mut x: HeldState, t: f64) -> Result<HeldState, Failed> {
         let system = self.system(&x, t)?;
         system.settle(&mut x.x, 1.0);
+        if let Some(stress) = &self.stress {
+            x.x = stress.relieved(x.x);
+        }
         Ok(x)
     }
 
@@ -253,7 +260,13 @@ impl Equations for Held {
         self.bordered = Some(bordered);
         self.linearised = Some((x.clone(), t));
         let nothing = nothing.into_iter().map(|Line { x, t }| Direction { x, t });
-        self.free = Motions::apart(self, nothing.collect(), across);
+        self.free = Motions::apart(self, nothing.collect(), across, Correction::is_idle);
+        let units = self.system(x, t)?.units;
+        let idle = &self.free.idle;
+        self.stress = (!idle.is_empty()).then(|| SelfStress::new(&settled.nodes, idle, units));
+        if let Some(Direction { x, t }) = self.free.tangent.take() {
+            self.free.tangent = Some(self.relieved(Direction { x, t }));
+        }
         Ok(())
     }
 
@@ -281,7 +294,7 @@ impl Equations for Held {
     fn stability(&mut self, x: &HeldState, _: f64) -> Stability {
         let Some(system) = &self.system else { return Stability::default() };
         let sections = system.sections.with_nodes(&system.mesh, &x.x);
-        let free = self.free.all.len();
+        let free = self.free.all.len() + self.free.idle.len();
         let motions: Vec<Correction> = self.free.all.iter().map(|motion| motion.x.clone()).collect();
         let index = if sections.index > 0 {
             None
@@ -461,7 +474,7 @@ impl Held {
         match (&mut self.system, &self.bordered) {
             (Some(system), Some(bordered)) => {
                 let Line { x, t } = system.particular_for(bordered, gaps);
-                let error = self.free.without(self, Direction { x, t });
+                let error = self.free.without(self, self.relieved(Direction { x, t }));
                 // At right angles to the branch, where no plane sees to that.
                 match &self.free.tangent {
                     Some(tangent) => plus(self, &error, -dot(self, tangent, &error), tangent),
@@ -476,9 +489,20 @@ impl Held {
         match (&self.system, &self.bordered) {
             (Some(system), Some(bordered)) => {
                 let Line { x, t } = solve(system, bordered);
-                self.free.without(self, Direction { x, t })
+                self.free.without(self, self.relieved(Direction { x, t }))
             }
             _ => no_direction(),
+        }
+    }
+
+    /// A direction without wrenches that move nothing.
+    fn relieved(&self, direction: Direction<Correction>) -> Direction<Correction> {
+        match (&self.stress, &self.linearised) {
+            (Some(stress), Some((at, _))) => {
+                let x = stress.relieved_change(&at.x.nodes, direction.x);
+                Direction { x, t: direction.t }
+            }
+            _ => direction,
         }
     }
 }

@@ -11,11 +11,13 @@ pub struct Motions<C> {
     pub all: Vec<Direction<C>>,
     /// The unit tangent, if there are any.
     pub tangent: Option<Direction<C>>,
+    /// What is mapped to nothing and is no motion either: wrenches.
+    pub idle: Vec<C>,
 }
 
 impl<C> Default for Motions<C> {
     fn default() -> Self {
-        Self { all: Vec::new(), tangent: None }
+        Self { all: Vec::new(), tangent: None, idle: Vec::new() }
     }
 }
 
@@ -26,13 +28,21 @@ impl<C: Clone> Motions<C> {
         equations: &E,
         lines: Vec<Direction<C>>,
         across: Option<&Direction<C>>,
+        is_idle: impl Fn(&C, f64) -> bool,
     ) -> Self {
-        let mut basis: Vec<Direction<C>> = Vec::new();
-        for line in lines {
-            basis.push(beside(equations, line, &basis).1);
+        let (mut basis, mut idle): (Vec<Direction<C>>, Vec<C>) = (Vec::new(), Vec::new());
+        for mut line in lines {
+            for other in basis.iter().chain(&basis) {
+                line = plus(equations, &line, -dot(equations, other, &line), other);
+            }
+            if is_idle(&line.x, dot(equations, &line, &line)) {
+                idle.push(line.x);
+            } else {
+                basis.push(unit(equations, &line));
+            }
         }
         if basis.is_empty() {
-            return Self::default();
+            return Self { idle, ..Self::default() };
         }
         let ahead = |line: &Direction<C>| across.map_or(line.t, |across| dot(equations, across, line));
         let steep = basis.iter().map(|line| line.t * line.t).sum::<f64>().sqrt();
@@ -56,7 +66,7 @@ impl<C: Clone> Motions<C> {
             let Some((_, farthest)) = left.max_by(|a, b| a.0.total_cmp(&b.0)) else { break };
             apart.push(farthest);
         }
-        Self { all: apart.split_off(1), tangent: Some(tangent) }
+        Self { all: apart.split_off(1), tangent: Some(tangent), idle }
     }
 
     /// The part of a direction at right angles to the motions.

@@ -14,7 +14,10 @@ type Vector = Vector3<f64>;
 /// Force and moment about the node itself at each node, in units.
 type Wrenches = Vec<[Vector; 2]>;
 
-/// Self-stresses at a state, at right angles to one another: changes of force and of moment about the origin, and as wrenches.
+/// Part of a self-stress beside the others that is nothing.
+const NOTHING: f64 = 1e-10;
+
+/// Self-stresses at a state, orthonormal: changes of force and of moment about the origin, and as wrenches.
 pub struct SelfStress {
     basis: Vec<(Vec<[Vector; 2]>, Wrenches)>,
     units: Units,
@@ -29,12 +32,17 @@ impl SelfStress {
             let mut change: Vec<[Vector; 2]> = change.nodes.iter().map(parts).collect();
             let mut own: Wrenches =
                 nodes.iter().zip(&change).map(|(at, [n, c])| about(at, n, c, &units)).collect();
-            for (other, wrenches) in &basis {
-                let part = product(&own, wrenches) / product(wrenches, wrenches);
+            let whole = product(&own, &own);
+            // Twice, for they may be nearly parallel.
+            for (other, wrenches) in basis.iter().chain(&basis) {
+                let part = product(&own, wrenches);
                 subtract(&mut change, part, other);
                 subtract(&mut own, part, wrenches);
             }
-            if product(&own, &own) > 0.0 {
+            let square = product(&own, &own);
+            if square > NOTHING * NOTHING * whole {
+                let size = square.sqrt();
+                change.iter_mut().chain(&mut own).flatten().for_each(|x| *x /= size);
                 basis.push((change, own));
             }
         }
@@ -48,7 +56,7 @@ impl SelfStress {
         for (change, wrenches) in &self.basis {
             let own = |at: &At| about(at, &(at.force / force), &(at.about_origin / moment), &self.units);
             let here: Wrenches = x.nodes.iter().map(own).collect();
-            let part = product(&here, wrenches) / product(wrenches, wrenches);
+            let part = product(&here, wrenches);
             for (at, [n, c]) in x.nodes.iter_mut().zip(change) {
                 at.force -= part * force * n;
                 at.about_origin -= part * moment * c;
@@ -70,7 +78,7 @@ impl SelfStress {
                 [n, m - moved.cross(&(at.force / force))]
             };
             let here: Wrenches = nodes.iter().zip(&x.nodes).map(own).collect();
-            let part = product(&here, wrenches) / product(wrenches, wrenches);
+            let part = product(&here, wrenches);
             for (node, [n, c]) in x.nodes.iter_mut().zip(change) {
                 for k in 0..3 {
                     node[6 + k] -= part * n[k];

@@ -142,3 +142,7 @@ class GrowthTable(Table):
         if not terms:
             raise InputError("growth", {}, f"at least one of {', '.join(type(self).model_fields)}")
         return sum(terms[1:], start=terms[0])
+
+    def reads(self, directory: Path) -> tuple[Path, ...]:
+        """Return the files that are read."""
+        return () if self.csv is None else (directory / self.csv.path,)

@@ -55,14 +55,18 @@ class OutputTable(Table):
     map: Any = None
     phases: Any = None
 
-    def make(self) -> tuple[Output, ...]:
-        """Return every file, each of another name."""
+    def make(self, read: Sequence[Path] = ()) -> tuple[Output, ...]:
+        """Return every file, each another one and none of those that are read."""
         outputs: dict[str, Output] = {}
+        kept = {os.path.realpath(path) for path in read}
         for key, value in self.given().items():
             for i, name in enumerate(value) if isinstance(value, list) else ((None, value),):
                 field = f"output.{key}" if i is None else f"output.{key}[{i}]"
                 output = Output(field, _path(field, name, SUFFIXES[key]), key)
-                if outputs.setdefault(os.path.abspath(output.path), output) is not output:
+                place = os.path.realpath(output.path)
+                if place in kept:
+                    raise InputError(field, name, "a file that the scene does not read")
+                if outputs.setdefault(place, output) is not output:
                     raise InputError(field, name, "a different file for each output")
         return tuple(outputs.values())
 

@@ -51,6 +51,9 @@ LEAST_TOLERANCE, GREATEST_TOLERANCE = 1e-14, 1e-2
 CONTINUOUS = 0.03
 """A change by less than this of K2, K3 over the thickness ratio is no jump."""
 
+MOST = 0.75
+"""The part of a line on which a change is to be as small."""
+
 SPAN = "two finite numbers, the lower one first"
 
 Parameters: TypeAlias = tuple[str, Sequence[float]]
@@ -100,17 +103,19 @@ class Boundary:
         - "instability": the lowest state becomes another one continuously, as others begin or end
         - "jump": the lowest state is another one on each side
         - "others": the lowest state stays as it is, others begin or end
-        - "name": the lowest state gets another name, no state begins or ends
+        - "name": a state gets another name, none begins or ends
         - "change": not known, of ribbons that are held or loaded
         """
         if () in self.stable:
             return "change"
-        jump = float(np.nanmax(self.jump)) if np.isfinite(self.jump).any() else 0.0
+        renamed = sum(self.stable[0]) == sum(self.stable[1])
         if self.phases[0] == self.phases[1]:
-            return "others"
-        if jump > CONTINUOUS:
+            return "name" if renamed else "others"
+        # Where a line reaches thin ribbons the state a little beyond a pitchfork is far away: of most of it.
+        known = self.jump[np.isfinite(self.jump)]
+        if known.size and float(np.quantile(known, MOST)) > CONTINUOUS:
             return "jump"
-        return "name" if sum(self.stable[0]) == sum(self.stable[1]) else "instability"
+        return "name" if renamed else "instability"
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,12 +185,12 @@ class PhaseDiagram:
     @property
     def areas(self) -> dict[str, float]:
         """The part of the diagram that each phase takes, largest first, from the refined boundaries."""
-        unit = (self.x.span[1] - self.x.span[0]) * (self.y.span[1] - self.y.span[0])
         areas: dict[str, float] = {}
-        origin = np.array([self.x.span[0], self.y.span[0]])
+        origin, end = np.array([self.x.span, self.y.span]).T
         for line in (*self.boundaries, *self.rim):
-            x, y = (line.points - origin).T
-            area = 0.5 * float(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])) / unit
+            # In parts of the spans, whose product may be too small, or too large, for a number.
+            x, y = ((line.points - origin) / (end - origin)).T
+            area = 0.5 * float(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]))
             for phase, sign in zip(line.phases, (1.0, -1.0), strict=True):
                 if phase:
                     areas[phase] = areas.get(phase, 0.0) + sign * area

@@ -265,7 +265,8 @@ class _SceneTable(Table):
             arguments["law"] = LinearLaw(**self.law.given()) if isinstance(self.law, _LawTable) else self.law
         tracing = None if self.trace is None else self.trace.make()
         sweeping = None if self.sweep is None else self.sweep.make()
-        options, outputs = self.solve.make(), self.output.make()
+        read = () if self.growth is None else self.growth.reads(directory)
+        options, outputs = self.solve.make(), self.output.make(read)
         scene = Scene(**arguments)
         for asked in (tracing, sweeping):
             if asked is not None:

@@ -52,8 +52,8 @@ type Vector = Vector3<f64>;
 /// Eigenvalues of the flexibility `B D^-1` of an element below minus this part of the largest of `B`, but for rounding, are those of buckling,
 /// which come from infinity.
 const BUCKLED: f64 = 1e-6;
-/// Flexibility of an element that is nearly infinite, of what it is without stress, and stiffness of springs at its end, of the inverse of
-/// that, of which one keeps it from being so.
+/// Flexibility of all that is behind that is nearly infinite, of what it is without stress, and stiffness of springs at the end of an element, of
+/// the inverse of its own, of which one keeps it from being so.
 const SINGULAR: f64 = 1e4;
 const SPRINGS: [f64; 4] = [0.0, 0.2, 0.5, 1.2];
 /// Stiffness of the springs at the start, in units of the soft stiffness of the whole ribbon.
@@ -153,8 +153,6 @@ struct Blocks {
     carried: Matrix6<f64>,
     /// Number of negative eigenvalues of the flexibility.
     buckled: usize,
-    /// Stiffness of springs at its end, which the next element is to take back.
-    springs: f64,
 }
 
 impl Transfer {
@@ -194,18 +192,11 @@ impl Transfer {
         let [start, end] = ends.map(half);
         let d = d + end * b;
         let c = c + end * a - d * start;
+        let a = a - b * start;
         Self { a, b, c, d }
     }
 
-    /// The element with springs at its end: where it is about to buckle by itself without them, `D` is singular. The next element is
-    /// held by as much less.
-    fn blocks(&self) -> Option<Blocks> {
-        let size = self.b.amax();
-        let with = |springs: &f64| self.with_springs(springs / size);
-        let regular = |blocks: &Blocks| blocks.flexibility.amax() < SINGULAR * size;
-        SPRINGS.iter().filter_map(with).find(regular)
-    }
-
+    /// The element with springs at its end.
     fn with_springs(&self, springs: f64) -> Option<Blocks> {
         let inverse = (self.d + springs * self.b).try_inverse()?;
         let flexibility = symmetric(&(self.b * inverse));
@@ -215,7 +206,6 @@ impl Transfer {
             buckled: Symmetric::new(&flexibility)?.negative(rigid),
             flexibility,
             carried: inverse,
-            springs,
         })
     }
 }
@@ -244,6 +234,55 @@ impl Spring {
     }
 }
 
+/// All that is behind a node.
+struct Behind {
+    /// `F`.
+    flexibility: Matrix6<f64>,
+    /// `Y`.
+    moved: Matrix6<f64>,
+    /// `E`; what the start does not leave free is padded by ones.
+    energy: Matrix6<f64>,
+    /// The stiffness of springs at the node, which the next element is to take back.
+    taken: f64,
+    /// What is rounding of `F`.
+    rounding: f64,
+}
+
+impl Behind {
+    /// Nothing but what the start leaves free.
+    fn start(free: &DMatrix<f64>) -> Self {
+        let (mut moved, mut energy) = (Matrix6::zeros(), Matrix6::identity());
+        moved.columns_mut(0, free.ncols()).copy_from(free);
+        (0..free.ncols()).for_each(|i| energy[(i, i)] = SPRING);
+        Self { flexibility: Matrix6::zeros(), moved, energy, taken: 0.0, rounding: 0.0 }
+    }
+
+    /// The same with the next element, and what that adds to the index. Springs at its end keep this from being about to buckle by
+    /// itself, where `D` or `T` is singular; the element after is held by as much less.
+    fn and(&self, element: &Transfer, springs: f64, held: &Matrix6<f64>) -> Option<(Self, isize)> {
+        let Blocks { stiffness, flexibility, carried, buckled } = element.with_springs(springs)?;
+        let stiffness = stiffness + held - Matrix6::from_diagonal_element(self.taken);
+        let (root, signs) = Symmetric::new(&self.flexibility)?.root();
+        let pivot = root.tr_mul(&(stiffness * root)) + Matrix6::from_diagonal(&signs);
+        let pivot = Symmetric::new(&pivot)?;
+        let before = signs.iter().filter(|sign| **sign < 0.0).count();
+        // An element so long that it buckles by itself, held at its start alone: its strains were eliminated at that.
+        let index = buckled as isize + pivot.negative(0.0) as isize - before as isize;
+        let across = root.tr_mul(&carried);
+        let turned = root.tr_mul(&(stiffness * self.moved));
+        let yielding = pivot.solve(&turned);
+        let own = self.moved.tr_mul(&(stiffness * self.moved)) - turned.tr_mul(&yielding);
+        let next = Self {
+            flexibility: symmetric(&(flexibility + across.tr_mul(&pivot.solve(&across)))),
+            moved: carried.tr_mul(&(self.moved - root * yielding)),
+            energy: self.energy + symmetric(&own),
+            taken: springs,
+            rounding: self.rounding + ROUNDING * flexibility.amax(),
+        };
+        Some((next, index))
+    }
+}
+
 /// The index under the end conditions; `None` where it cannot be told. Springs hold free
 /// motions, which change nothing and do not count: they change the sign of nothing else.
 fn index(
@@ -254,40 +293,27 @@ fn index(
     holding: &[Spring],
 ) -> Option<usize> {
     let rigid = problem.law.at(0.0).ok()?.compliance.min() == 0.0;
-    // F, Y and E, of all that is behind; what is not free is padded by ones.
-    let mut behind = Matrix6::zeros();
-    let start = freedom(problem.ends[0].hold);
-    let (mut moved, mut energy) = (Matrix6::zeros(), Matrix6::identity());
-    moved.columns_mut(0, start.ncols()).copy_from(&start);
-    (0..start.ncols()).for_each(|i| energy[(i, i)] = SPRING);
-    let (mut index, mut rounding) = (0_isize, 0.0);
     let held = |node: usize| {
         let here = holding.iter().filter(|spring| spring.node == node);
         here.fold(Matrix6::zeros(), |sum, spring| sum + spring.along * spring.along.transpose())
     };
-    // By springs at the end of the element before.
-    let mut taken = 0.0;
+    let start = freedom(problem.ends[0].hold);
+    let mut behind = Behind::start(&start);
+    let (mut index, mut soft) = (0, 0.0);
     for (i, (row, ends)) in rows.iter().zip(places.windows(2)).enumerate() {
-        let element = Transfer::new(row, [&ends[0], &ends[1]], units).blocks()?;
-        // An element so long that it buckles by itself, held at its start alone: its strains were eliminated at that.
-        index += element.buckled as isize;
-        rounding += ROUNDING * element.flexibility.amax();
-        let (root, signs) = Symmetric::new(&behind)?.root();
-        let stiffness = element.stiffness + held(i) - Matrix6::from_diagonal_element(taken);
-        taken = element.springs;
-        let pivot = root.tr_mul(&(stiffness * root)) + Matrix6::from_diagonal(&signs);
-        let pivot = Symmetric::new(&pivot)?;
-        index += pivot.negative(0.0) as isize - signs.iter().filter(|sign| **sign < 0.0).count() as isize;
-        let across = root.tr_mul(&element.carried);
-        let turned = root.tr_mul(&(stiffness * moved));
-        let yielding = pivot.solve(&turned);
-        energy += symmetric(&(moved.tr_mul(&(stiffness * moved)) - turned.tr_mul(&yielding)));
-        moved = element.carried.tr_mul(&(moved - root * yielding));
-        behind = symmetric(&(element.flexibility + across.tr_mul(&pivot.solve(&across))));
+        let element = Transfer::new(row, [&ends[0], &ends[1]], units);
+        soft += element.b.amax();
+        let with = |springs: &f64| behind.and(&element, springs / element.b.amax(), &held(i));
+        let next =
+            SPRINGS.iter().filter_map(with).find(|(next, _)| next.flexibility.amax() < SINGULAR * soft);
+        let (next, unstable) = next?;
+        index += unstable;
+        behind = next;
     }
+    let Behind { flexibility, moved, energy, taken, rounding } = behind;
     let free = freedom(problem.ends[1].hold);
     let mut last = SMatrix::<f64, 18, 18>::identity();
-    last.fixed_view_mut::<6, 6>(0, 0).copy_from(&-behind);
+    last.fixed_view_mut::<6, 6>(0, 0).copy_from(&-flexibility);
     last.view_mut((0, 6), (6, free.ncols())).copy_from(&free);
     last.view_mut((6, 0), (free.ncols(), 6)).copy_from(&free.transpose());
     let spring = free.transpose() * (held(rows.len()) - Matrix6::from_diagonal_element(taken)) * &free;

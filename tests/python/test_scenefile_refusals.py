@@ -317,6 +317,20 @@ def test_one_line_says_what_is_wrong(refusal, text, line):
     assert refusal(text).startswith(line)
 
 
+def test_measurements_are_not_overwritten(refusal, tmp_path):
+    measured = "x,gamma33\n-0.5,0.02\n0.0,0.0\n0.5,0.02\n"
+    (tmp_path / "leaf.csv").write_text(measured)
+    (tmp_path / "here").symlink_to(tmp_path)
+    asked = RIBBON + '[growth]\ncsv = { path = "leaf.csv", width = 1.0 }\n'
+    asked += '[trace]\nparameter = "ribbon.thickness"\nspan = [0.05, 0.1]\n[output]\n'
+    for name in ("leaf.csv", "./leaf.csv", "here/leaf.csv"):
+        line = refusal(asked + f'table = "{name}"')
+        assert line.startswith(f"output.table = '{name}': expected a file that the scene does not read")
+    line = refusal(asked + 'table = ["new.csv", "here/new.csv"]')
+    assert line.startswith("output.table[1] = 'here/new.csv': expected a different file for each output")
+    assert (tmp_path / "leaf.csv").read_text() == measured
+
+
 def test_huge_values_make_short_lines(refusal):
     assert len(refusal(SCENE.replace("10.0", "0x" + "f" * 9000))) < 200
     assert len(refusal(SCENE.replace("10.0", "1" * 9000))) < 200

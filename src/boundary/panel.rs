@@ -24,7 +24,7 @@ pub enum Panel {
 }
 
 /// Size of a column, of the largest, that is none.
-const NONE: f64 = 1e-14;
+const NONE: f64 = 1e-10;
 /// A solution so much larger than its right-hand side tells of a small singular value.
 const LARGE: f64 = 1e4;
 /// Singular values below this part of the next vanish: at points of a branch, and of what is known no better, and at a solution, which is

@@ -22,8 +22,8 @@ __all__ = ["start_of"]
 INSIDE = 1e-12
 """How far beyond the span, relative to it, rounding may put a start."""
 
-ASIDE = 0.05
-"""How far aside, in the span, is looked for what a start that may be moved freely is beside its value."""
+ASIDE = (0.05, 5e-3, 5e-4, 5e-5, 5e-6)
+"""How far aside, in the span, is looked for what a start is that may be moved freely, in turn."""
 
 ALIKE = 0.05
 """Difference of the mean squares of curvatures of two such states, relative to the larger or to 1/L^2."""
@@ -94,25 +94,34 @@ def _beside(
     free = _free_motions(start)
     if free == 0:
         return value, start
-    step = ASIDE * (span[1] - span[0])
-    aside = value + step if value + step <= span[1] else value - step
-    found: list[State] = []
-    for guess in (start, None):
+    for part in ASIDE:
+        step = part * (span[1] - span[0])
+        aside = value + step if value + step <= span[1] else value - step
+        found = []
+        for guess in (start, None):
+            state = _solved(parameter, aside, guess, tol, degree)
+            if state is None:
+                continue
+            if _free_motions(state) >= free:
+                return value, start
+            if _alike(state, start):
+                found.append(state)
+            if found and _index(found[0]) <= _index(start):
+                break
+        if found:
+            return aside, min(found, key=_index)
+    return value, start
+
+
+def _solved(
+    parameter: Parameter, value: float, guess: State | None, tol: float, degree: int | None
+) -> State | None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RibbonWarning)
         try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", RibbonWarning)
-                state = solve(
-                    parameter.scene(aside), guess=guess, tol=tol, degree=degree, method="collocation"
-                )
+            return solve(parameter.scene(value), guess=guess, tol=tol, degree=degree, method="collocation")
         except (ConvergenceError, InputError):
-            continue
-        if _free_motions(state) >= free:
-            return value, start
-        if _alike(state, start):
-            found.append(state)
-        if found and _index(found[0]) <= _index(start):
-            break
-    return (aside, min(found, key=_index)) if found else (value, start)
+            return None
 
 
 def _free_motions(state: State) -> int:

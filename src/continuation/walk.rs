@@ -42,13 +42,17 @@ pub fn follow<E: Equations>(
     mut stop: impl FnMut(&mut E, &PointOf<E>, SpecialKind) -> bool,
 ) -> BranchOf<E> {
     let mut walk = Walk::from(first, limits);
-    let ended = loop {
+    let mut ended = loop {
         if let Err(ended) = walk.turn(equations, &mut stop) {
             break ended;
         }
     };
     if matches!(ended, Ended::Section | Ended::Failed(_)) && ended != Ended::Failed(Failed::Interrupted) {
         walk.drop_coarse(equations);
+        // What is left may end where a section gives way, if what was dropped was beyond.
+        if let Ended::Failed(failed) = ended {
+            ended = walk.ended_by(failed);
+        }
     }
     walk.branch.ended[1] = ended;
     walk.branch

@@ -77,3 +77,16 @@ def test_natural_shapes_are_starts(found):
     (branch,) = diagram.branches
     (place,) = (point.place for point in diagram.special_points if point.kind == "value")
     np.testing.assert_allclose(branch.state(place).strains, start.strains, atol=1e-9)
+
+
+@pytest.mark.parametrize("most", [1.0, 20.0, 1000.0])
+def test_weight_on_a_ring_however_long_the_span(most):
+    # The first place aside at which it is still nearly the ring.
+    straight = rb.LinearLaw(EI1=1.0, EI2=1.0, GJ=0.7, inextensible=True)
+    scene = rb.Scene(rb.Ribbon(10.0, 1.0, 0.1), law=straight, start=rb.Closed())
+    diagram = rb.trace(scene, "gravity[0]", (0.0, most), depth=0)
+    (branch,) = diagram.branches
+    assert branch.ended == ("span", "span")
+    assert set(branch.index) == {0.0}
+    ring = 0.5 * (2.0 * np.pi / 10.0) ** 2
+    assert branch.energy[0] == pytest.approx(ring, rel=1e-9)

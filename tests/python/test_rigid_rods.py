@@ -1,4 +1,4 @@
-"""Rods that are rigid in one way and held at both ends: the limit of stiff ones tells the wrench that they bear.
+"""Rods that are rigid in one way and held at both ends: the limit of stiff ones tells what they bear.
 
 Thresholds are those of a column that bends in one plane, which do not depend on what is rigid.
 """

@@ -172,15 +172,21 @@ fn turned_over(x: &Iterate, ends: &[End; 2]) -> bool {
 /// Axial strain beyond which a solution of the equations is no ribbon.
 const LARGEST_STRAIN: f64 = 0.5;
 
-/// The square of the distance of two states: the mean over the length of differences of position/L, `eps` and `K L`.
+/// The square of the distance of two states: the mean over the length of differences of position/L, `eps` and `K L`. What is the same in all
+/// directions may be turned about the line of its ends: of that the size of bending counts, and no position.
 fn distance(mesh: &Mesh, a: &Iterate, b: &Iterate) -> f64 {
     let (length, degree) = (mesh.problem.length, mesh.gauss.degree);
+    let isotropic = mesh.problem.law.isotropic();
     let mut sum = 0.0;
     for i in 0..mesh.elements() {
         let place = |node: usize| (a.nodes[node].position - b.nodes[node].position).norm_squared();
-        let mut local = 0.5 * (place(i) + place(i + 1)) / (length * length);
+        let mut local = if isotropic { 0.0 } else { 0.5 * (place(i) + place(i + 1)) / (length * length) };
         for (j, weight) in mesh.gauss.weights.iter().enumerate() {
-            let e = a.strains[i * degree + j] - b.strains[i * degree + j];
+            let (own, other) = (&a.strains[i * degree + j], &b.strains[i * degree + j]);
+            let mut e = own - other;
+            if isotropic {
+                (e[1], e[2]) = (own[1].hypot(own[2]) - other[1].hypot(other[2]), 0.0);
+            }
             local += weight * (e[0] * e[0] + length * length * e.rows(1, 3).norm_squared());
         }
         sum += local * mesh.length(i) / length;
@@ -188,7 +194,7 @@ fn distance(mesh: &Mesh, a: &Iterate, b: &Iterate) -> f64 {
     sum
 }
 
-/// Means over the length of the squares of `eps` and `K L`: the same for mirror images.
+/// Means over the length of the squares of `eps` and `K L`: the same for mirror images. What is the same in all directions has one of bending.
 fn mean_squares(mesh: &Mesh, x: &Iterate) -> [f64; 4] {
     let (length, degree) = (mesh.problem.length, mesh.gauss.degree);
     let mut sums = [0.0; 4];
@@ -200,6 +206,9 @@ fn mean_squares(mesh: &Mesh, x: &Iterate) -> [f64; 4] {
                 *sum += weight * mesh.length(i) / length * (scale * e[k]).powi(2);
             }
         }
+    }
+    if mesh.problem.law.isotropic() {
+        (sums[1], sums[2]) = (sums[1] + sums[2], 0.0);
     }
     sums
 }

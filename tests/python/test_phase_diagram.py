@@ -327,3 +327,36 @@ def test_a_narrow_band_between_grid_points_is_followed_from_row_to_row():
     # the band reaches through the whole diagram
     finer = rb.phase_diagram(scene, x, y, 57)
     assert diagram.areas["twisted"] == pytest.approx(finer.areas["twisted"], rel=1e-3)
+
+
+@pytest.mark.parametrize("low", [1e-3, 1e-6])
+def test_a_pitchfork_of_thin_ribbons_is_no_jump(low: float) -> None:
+    # flat bends at xi = 4.546738 eta^2: beyond it K2/eta grows as the root of the distance over eta^2
+    scene = rb.Scene(rb.Ribbon(10.0, 1.0, 0.1), rb.growth.edge(0.06))
+    y = ("growth.edge.amplitude", (0.0, 0.1))
+    diagram = rb.phase_diagram(scene, ("ribbon.thickness", (low, 0.1)), y, 30)
+    (line,) = diagram.boundaries
+    assert line.kind == "instability"
+    flat = 4.546738 * (0.1**3 - low**3) / 3.0 / (0.1 * (0.1 - low))
+    # Chords of a parabola over 29 cells lie above it, by h^2/2 of its area at most.
+    assert 0.0 <= diagram.areas["flat"] / flat - 1.0 <= 0.5 / 29**2
+
+
+def test_shapes_that_change_names_alone_do_not_begin_or_end() -> None:
+    growth = rb.growth.edge(-0.016) + rb.growth.chiral(0.01) + rb.growth.thickness(0.02)
+    scene = rb.Scene(rb.Ribbon(10.0, 1.0, 0.04), growth)
+    x, y = ("growth.chiral.amplitude", (0.0, 0.01)), ("growth.edge.amplitude", (0.0, 0.04))
+    kinds = set()
+    for line in rb.phase_diagram(scene, x, y, 20).boundaries:
+        before, after = (sum(stable) for stable in line.stable)
+        assert (line.kind == "others") <= (before != after)
+        kinds.add(line.kind)
+    assert kinds == {"others", "name"}
+
+
+@pytest.mark.parametrize("span", [1e-200, 1e-2])
+def test_areas_of_spans_whose_product_is_no_number(span: float) -> None:
+    scene = rb.Scene(rb.Ribbon(10.0, 1.0, 0.1), rb.growth.edge(0.0) + rb.growth.chiral(0.0))
+    x, y = (f"growth.{name}.amplitude" for name in ("chiral", "edge"))
+    areas = rb.phase_diagram(scene, (x, (0.0, 1e-200)), (y, (0.0, span)), 5).areas
+    assert areas == {"flat": pytest.approx(1.0, abs=1e-12)}

@@ -238,10 +238,8 @@ impl Spring {
 struct Behind {
     /// `F`.
     flexibility: Matrix6<f64>,
-    /// `Y`.
-    moved: Matrix6<f64>,
-    /// `E`; what the start does not leave free is padded by ones.
-    energy: Matrix6<f64>,
+    /// `Y` and `E`, what is not free padded by ones; none of a start that leaves nothing free.
+    open: Option<(Matrix6<f64>, Matrix6<f64>)>,
     /// The stiffness of springs at the node, which the next element is to take back.
     taken: f64,
     /// What is rounding of `F`.
@@ -251,10 +249,13 @@ struct Behind {
 impl Behind {
     /// Nothing but what the start leaves free.
     fn start(free: &DMatrix<f64>) -> Self {
-        let (mut moved, mut energy) = (Matrix6::zeros(), Matrix6::identity());
-        moved.columns_mut(0, free.ncols()).copy_from(free);
-        (0..free.ncols()).for_each(|i| energy[(i, i)] = SPRING);
-        Self { flexibility: Matrix6::zeros(), moved, energy, taken: 0.0, rounding: 0.0 }
+        let open = (free.ncols() > 0).then(|| {
+            let (mut moved, mut energy) = (Matrix6::zeros(), Matrix6::identity());
+            moved.columns_mut(0, free.ncols()).copy_from(free);
+            (0..free.ncols()).for_each(|i| energy[(i, i)] = SPRING);
+            (moved, energy)
+        });
+        Self { flexibility: Matrix6::zeros(), open, taken: 0.0, rounding: 0.0 }
     }
 
     /// The same with the next element, and what that adds to the index. Springs at its end keep this from being about to buckle by
@@ -269,13 +270,15 @@ impl Behind {
         // An element so long that it buckles by itself, held at its start alone: its strains were eliminated at that.
         let index = buckled as isize + pivot.negative(0.0) as isize - before as isize;
         let across = root.tr_mul(&carried);
-        let turned = root.tr_mul(&(stiffness * self.moved));
-        let yielding = pivot.solve(&turned);
-        let own = self.moved.tr_mul(&(stiffness * self.moved)) - turned.tr_mul(&yielding);
+        let open = self.open.map(|(moved, energy)| {
+            let turned = root.tr_mul(&(stiffness * moved));
+            let yielding = pivot.solve(&turned);
+            let own = moved.tr_mul(&(stiffness * moved)) - turned.tr_mul(&yielding);
+            (carried.tr_mul(&(moved - root * yielding)), energy + symmetric(&own))
+        });
         let next = Self {
             flexibility: symmetric(&(flexibility + across.tr_mul(&pivot.solve(&across)))),
-            moved: carried.tr_mul(&(self.moved - root * yielding)),
-            energy: self.energy + symmetric(&own),
+            open,
             taken: springs,
             rounding: self.rounding + ROUNDING * flexibility.amax(),
         };
@@ -310,7 +313,7 @@ fn index(
         index += unstable;
         behind = next;
     }
-    let Behind { flexibility, moved, energy, taken, rounding } = behind;
+    let Behind { flexibility, open, taken, rounding } = behind;
     let free = freedom(problem.ends[1].hold);
     let mut last = SMatrix::<f64, 18, 18>::identity();
     last.fixed_view_mut::<6, 6>(0, 0).copy_from(&-flexibility);
@@ -318,9 +321,11 @@ fn index(
     last.view_mut((6, 0), (free.ncols(), 6)).copy_from(&free.transpose());
     let spring = free.transpose() * (held(rows.len()) - Matrix6::from_diagonal_element(taken)) * &free;
     last.view_mut((6, 6), (free.ncols(), free.ncols())).copy_from(&spring);
-    last.fixed_view_mut::<6, 6>(0, 12).copy_from(&-moved);
-    last.fixed_view_mut::<6, 6>(12, 0).copy_from(&-moved.transpose());
-    last.fixed_view_mut::<6, 6>(12, 12).copy_from(&energy);
+    if let Some((moved, energy)) = open {
+        last.fixed_view_mut::<6, 6>(0, 12).copy_from(&-moved);
+        last.fixed_view_mut::<6, 6>(12, 0).copy_from(&-moved.transpose());
+        last.fixed_view_mut::<6, 6>(12, 12).copy_from(&energy);
+    }
     // No flexibility at all is a little of it.
     if rigid {
         (0..6).for_each(|i| last[(i, i)] -= rounding);

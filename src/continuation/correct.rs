@@ -79,6 +79,8 @@ const FAST: f64 = 0.1;
 /// the tangent changes with that a thousand times as much.
 pub const ROUGHLY: f64 = 1e-5;
 pub const EXACTLY: f64 = 1e-10;
+/// The same of forces, which buckle a ribbon whatever its shape, over that of shapes.
+const FORCES: f64 = 1e3;
 /// Below this corrections that no longer shrink are rounding, which a branch point near by amplifies along the other branch.
 const ROUNDING: [f64; 2] = [1e-8, 1e-7];
 
@@ -95,7 +97,7 @@ pub fn corrected<E: Equations>(
 ) -> Result<Corrected<E>, Failed> {
     let Guess { mut x, mut t, across, sense } = guess;
     let negligible = ROUNDING[usize::from(aside < ROUGHLY)];
-    let (mut before, mut first) = (f64::INFINITY, f64::INFINITY);
+    let (mut before, mut first, mut off) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
     for iteration in 0..ITERATIONS {
         equations.linearise(&x, t, across)?;
         let line = equations.line();
@@ -121,15 +123,19 @@ pub fn corrected<E: Equations>(
         x = equations.moved(&x, &change.x, 1.0);
         t += change.t;
         before = size;
+        // Of forces as far as rounding lets them.
+        let forces = equations.forces(&change.x);
+        let still = forces <= FORCES * aside || size < negligible && forces >= 0.25 * off;
+        off = forces;
         // What a correction with new factors leaves is of the second order in it.
-        if size <= tolerance.min(aside) {
+        if size <= tolerance.min(aside) && still {
             let point = reached(equations, (x, t), linearised, &line, sense)?;
             return Ok(Corrected { point, first, aside: size });
         }
         if size > SMALL {
             continue;
         }
-        let close = size <= aside || iteration > ITERATIONS / 2;
+        let close = size <= aside && still || iteration > ITERATIONS / 2;
         for chord in 0..if close { CHORDS } else { 1 } {
             equations.evaluate(&x, t)?;
             let (change, again) = step(equations)?;

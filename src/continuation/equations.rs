@@ -95,6 +95,10 @@ pub trait Equations {
     /// The scalar product of changes on the mesh of the state last used; its size is that of strains and angles.
     fn dot(&self, a: &Self::Change, b: &Self::Change) -> f64;
 
+    /// The size of a change of forces, in what a ribbon resists bending with: where it is stiff against stretching they change more than
+    /// its shape tells.
+    fn forces(&self, change: &Self::Change) -> f64;
+
     /// Linearises at `(x, t)`, for solutions that lie across a direction; or at fixed `t`.
     ///
     /// # Errors

@@ -210,6 +210,10 @@ impl Equations for Held {
         })
     }
 
+    fn forces(&self, change: &Correction) -> f64 {
+        change.nodes.iter().flat_map(|node| &node[6..]).fold(0.0, |most, part| part.abs().max(most))
+    }
+
     fn linearise(
         &mut self,
         x: &HeldState,

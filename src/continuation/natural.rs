@@ -157,6 +157,10 @@ impl Equations for Natural {
         a[0] * b[0] + a[1] * b[1]
     }
 
+    fn forces(&self, _: &[f64; 2]) -> f64 {
+        0.0
+    }
+
     fn linearise(
         &mut self,
         x: &[f64; 2],

@@ -147,3 +147,21 @@ def test_trace_of_a_ring_that_begins_far_beyond_buckling(lower, upper):
     diagram = rb.trace(ring(lower), "law.intrinsic[1]", (lower, upper), start=start, depth=0)
     inside = [threshold for threshold in THRESHOLDS if lower < threshold < upper]
     assert branch_points(diagram) == (pytest.approx(inside, rel=1e-9), [2] * len(inside))
+
+
+# --- a clamped strip that stretches, pressed by moving its clamp: its shape hardly tells its force
+
+
+@pytest.mark.parametrize("thickness", [3e-4, 1e-4])
+def test_thin_strip_pressed_by_moving_its_clamp(thickness):
+    critical = 4 * math.pi**2 * thickness**2 / 12 / 100.0
+    scene = rb.Scene(rb.Ribbon(10.0, 1.0, thickness), law="linear", end=rb.Clamped())
+    diagram = rb.trace(scene, "end.position[2]", (10.0 * (1 - 5 * critical), 10.0))
+    found, multiplicities = branch_points(diagram)
+    shortening = [(1 - position / 10.0) / critical for position in found]
+    # A shortening of 5e-10 is known to 1e-16 of the length, twice: 4e-7 of it.
+    second = brentq(lambda x: math.tan(x) - x, math.pi, 1.499 * math.pi) ** 2 / math.pi**2
+    assert shortening == pytest.approx([4.0, second, 1.0], rel=2e-6)
+    assert multiplicities == [1, 1, 1]
+    index = diagram.branches[0].index
+    assert set(index[diagram.branches[0].parameter > 10.0 * (1 - critical)]) == {0}

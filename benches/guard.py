@@ -3,11 +3,12 @@
     python benches/guard.py            compares with benches/guard.csv, and fails where one is off by 2 %
     python benches/guard.py --write    writes benches/guard.csv
 
-A unit is an energy, gradient and Hessian of a section, a segment of a frame, or an element of a Newton
-iteration: see benches/guard.rs. Two runs with different repetitions differ by the work alone, not by start
-and set-up. Counts do not depend on what else the machine does. They do depend on the compiler, on the C
-library, so the file says with which they were counted; after a change of those it is written anew. They are
-those of any processor: of wider ones, which the program uses where there are some, valgrind knows not all.
+A unit is an energy, gradient and Hessian of a section, a segment of a frame, an element of a Newton
+iteration, or a whole diagram: see benches/guard.rs. Two runs with different repetitions differ by the work
+alone, not by start and set-up. Counts do not depend on what else the machine does. They do depend on the
+compiler, on the C library, so the file says with which they were counted; after a change of those it is
+written anew. They are those of any processor: of wider ones, which the program uses where there are some,
+valgrind knows not all.
 """
 
 from __future__ import annotations
@@ -58,7 +59,7 @@ def counted() -> dict[str, float]:
     counts = {}
     for line in output(program).splitlines():
         unit, size = line.split(",")
-        repetitions = max(1, LEAST // int(size)) if not unit.startswith("iteration") else 5
+        repetitions = max(1, LEAST // int(size)) if not unit.startswith(("iteration", "diagram")) else 5
         few, many = (instructions(program, unit, n * repetitions) for n in (1, 2))
         counts[unit] = (many - few) / (repetitions * int(size))
         print(f"{unit:28} {counts[unit]:10.0f}", flush=True)

@@ -12,12 +12,14 @@ use ribbonrs::growth::Growth;
 use ribbonrs::material::PlaneStress;
 use ribbonrs::section::{Form, RibbonLaw, RibbonSpec, Section, Strain};
 
+mod diagrams;
+
 const ETA: f64 = 0.1;
 const SEGMENTS: u32 = 100;
 const ELEMENTS: usize = 100;
 
 /// A unit is named by what it does and its size; a repetition does it `1`, `SEGMENTS` or `ELEMENTS` times.
-const UNITS: [(&str, usize); 18] = [
+const UNITS: [(&str, usize); 20] = [
     ("section closed 2.4", 1),
     ("section closed 40", 1),
     ("section general 2.4", 1),
@@ -36,6 +38,8 @@ const UNITS: [(&str, usize); 18] = [
     ("iteration 8 7", ELEMENTS),
     ("iteration 5 13", ELEMENTS),
     ("index", ELEMENTS),
+    ("diagram 2", 1),
+    ("diagram 3", 1),
 ];
 
 /// Energy, gradient and Hessian at `|K2| = k2 eta`; 8, 16 or 32 modes of an even profile of degree 6.
@@ -101,6 +105,15 @@ fn index(repetitions: usize) {
     }
 }
 
+/// A whole diagram.
+fn diagram(number: usize, repetitions: usize) {
+    let scene = &diagrams::SCENES[number - 1];
+    let state = scene.state();
+    for _ in 0..repetitions {
+        scene.follow(&state);
+    }
+}
+
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [unit, repetitions] = arguments.as_slice() else {
@@ -116,6 +129,7 @@ fn main() {
         ["frame", method] => frame(method, repetitions),
         ["iteration", degree, states] => iteration(number(degree), number(states), repetitions),
         ["index"] => index(repetitions),
+        ["diagram", scene] => diagram(number(scene), repetitions),
         _ => panic!("{unit} is not one of the units"),
     }
 }

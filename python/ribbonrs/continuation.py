@@ -71,8 +71,10 @@ def trace(
         How many branch points in a row branches are followed through, 0 to 20.
     max_steps : int
         Most points on a branch.
-    tol, degree, n
+    tol, n
         As of `solve`.
+    degree : int, optional
+        As of `solve`; if it is not given, 5, 6 where `tol` is 1e-6 or less, or 7 where it is 1e-10 or less.
 
     Raises
     ------
@@ -109,7 +111,8 @@ def trace(
     named = _functions(functions)
     depth = count("trace.depth", depth, 0, DEEPEST)
     max_steps = count("trace.max_steps", max_steps, 1)
-    tol, degree = tolerance("tol", tol), degree_of("degree", degree)
+    tol = tolerance("tol", tol)
+    degree = degree_of("degree", degree) or _degree(tol)
     maker = Maker(traced, tol, count("n", n, 2))
     scenes = _at(traced, low, 0), _at(traced, high, 1)
     _warn_growth(scenes)
@@ -136,6 +139,11 @@ def trace(
     zeros = [zero for branch in branches for name in named for zero in _zeros(branch, name, named[name])]
     points = (*special, *zeros, *ends(branches))
     return Diagram(scene, traced.name, (low, high), branches, points, _work(found, branches))
+
+
+def _degree(tol: float) -> int:
+    """Of about the least time: elements of a higher one are dearer, but fewer, and remade less often."""
+    return 5 if tol > 1e-6 else 6 if tol > 1e-10 else 7
 
 
 def _work(found: _core.Trace, branches: Sequence[Branch]) -> Work | None:

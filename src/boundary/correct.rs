@@ -120,8 +120,15 @@ impl System {
         let mut strains = vec![Strain::zeros(); self.mesh.stages()];
         let mut rhs = Vec::with_capacity(self.layout.states().len() * self.mesh.elements());
         for (i, gap) in residual.gaps.iter().enumerate() {
-            let own = i * s..(i + 1) * s;
-            let change = self.elements[i].solve(&residual.strains[own.clone()], &mut strains[own]);
+            let (own, element) = (i * s..(i + 1) * s, &self.elements[i]);
+            let (law, strains) = (&residual.strains[own.clone()], &mut strains[own]);
+            let change = if residual.eliminated == Some(self.factorisations) {
+                element.solved(strains)
+            } else if law.iter().all(|e| *e == Strain::zeros()) {
+                Change::default()
+            } else {
+                element.solve(law, strains)
+            };
             self.join_gap(&mut rhs, i, gap, &change);
         }
         Rhs { strains, nodes: self.chain.reduce(&residual.start, &rhs, &residual.end) }

@@ -73,6 +73,14 @@ impl Eliminated {
         }
     }
 
+    /// Puts the residual of the law at the stages, which is eliminated with the inputs, as the first column that pads them.
+    pub(super) fn put_residual(&mut self, residual: &[Strain]) {
+        let (strains, width) = (4 * self.stages, self.width());
+        for (row, value) in by_component(&residual[..self.stages], 1.0).enumerate() {
+            self.block[row * width + strains + self.inputs] = value;
+        }
+    }
+
     /// Derivatives of an output in a component of the strains, one a stage.
     pub(super) fn readout_mut(&mut self, output: usize, component: usize) -> &mut [f64] {
         let first = (4 * output + component) * self.stages;
@@ -125,6 +133,18 @@ impl Eliminated {
         backward(&self.block, width, rhs);
         strains.iter_mut().zip(by_stage(rhs)).for_each(|(x, y)| *x = y);
         let vector = |output: usize| Vector::from(self.readout(output).map(|row| dot(row, rhs)));
+        let lever = if self.outputs > 6 { vector(2) } else { Vector::zeros() };
+        Change { arm: vector(0), rotation: vector(1), lever }
+    }
+
+    /// What [`Eliminated::solve`] gives for the residual that was eliminated.
+    pub fn solved(&self, strains: &mut [Strain]) -> Change {
+        let (size, width) = (self.swaps.len(), self.width());
+        let own = |row: usize| -self.block[row * width + size + self.inputs];
+        for (j, strain) in strains.iter_mut().enumerate() {
+            *strain = Strain::from_fn(|i, _| own(i * self.stages + j));
+        }
+        let vector = |output: usize| Vector::from_fn(|i, _| self.flexibility[3 * output + i][self.inputs]);
         let lever = if self.outputs > 6 { vector(2) } else { Vector::zeros() };
         Change { arm: vector(0), rotation: vector(1), lever }
     }

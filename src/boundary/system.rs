@@ -77,11 +77,14 @@ pub struct Residual {
     pub start: [f64; 6],
     /// Minus that of the conditions at the end.
     pub end: [f64; 6],
+    /// The factorisation with which it was eliminated, if it was.
+    pub eliminated: Option<usize>,
 }
 
 impl Residual {
     /// The difference to another, over `step`.
     pub fn subtract(&mut self, other: &Self, step: f64) {
+        self.eliminated = None;
         self.strains
             .iter_mut()
             .zip(&other.strains)
@@ -205,7 +208,7 @@ impl System {
         });
         let (strains, gaps) =
             (vec![Strain::zeros(); self.mesh.stages()], vec![[0.0; 9]; self.mesh.elements()]);
-        Residual { strains, gaps, start, end }
+        Residual { strains, gaps, start, end, eliminated: None }
     }
 
     /// The conditions at both ends: their rows, and minus their residuals.
@@ -268,6 +271,7 @@ impl System {
 
     fn pass(&mut self, x: &Iterate, targets: &Targets, pass: Pass) -> Result<(), Failure> {
         let count = self.mesh.elements();
+        self.residual.eliminated = (pass == Pass::Condensed).then_some(self.factorisations);
         self.residual.gaps.clear();
         self.residual.strains.clear();
         let [start, end] = self.conditions(x, &targets.ends);
@@ -354,6 +358,7 @@ impl System {
             let element = &mut self.elements[i];
             self.stages.linearise(&span, &exit, strains, element);
             if pass == Pass::Condensed {
+                element.put_residual(&self.stages.residual);
                 let begun = Instant::now();
                 element.eliminate();
                 self.factorising += begun.elapsed();

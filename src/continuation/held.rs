@@ -40,7 +40,8 @@ pub struct Held {
     tolerance: f64,
     at: Option<(f64, Arc<Problem>)>,
     nodes: Arc<Vec<f64>>,
-    system: Option<System>,
+    /// In a box, for it is taken out and put back each time it is used.
+    system: Option<Box<System>>,
     /// By which changes are measured all along: those of the first problem.
     units: Option<Units>,
     bordered: Option<Bordered>,
@@ -98,6 +99,12 @@ impl Held {
         }
     }
 
+    /// Of the collocation.
+    #[must_use]
+    pub fn degree(&self) -> usize {
+        self.degree
+    }
+
     /// The problem at a parameter.
     ///
     /// # Errors
@@ -129,7 +136,7 @@ impl Held {
             }
             None => {
                 let mesh = x.mesh(&problem, self.degree)?;
-                let mut system = System::with_layout(mesh, self.layout)?;
+                let mut system = Box::new(System::with_layout(mesh, self.layout)?);
                 // Free motions are found, whatever they are.
                 system.holds_gliding = false;
                 system.units = *self.units.get_or_insert(system.units);
@@ -204,7 +211,7 @@ impl Equations for Held {
 
     fn dot(&self, a: &Correction, b: &Correction) -> f64 {
         let fits = |system: &&System| [a, b].iter().all(|c| c.nodes.len() == system.mesh.nodes.len());
-        self.system.as_ref().filter(fits).map_or(f64::NAN, |system| {
+        self.system.as_deref().filter(fits).map_or(f64::NAN, |system| {
             // Of the family, not of the ribbon that was last asked for.
             a.dot_over(b, &system.mesh, system.units.length)
         })

@@ -25,8 +25,8 @@ pub struct HeldState {
     pub x: Iterate,
 }
 
-/// The first point of the branch through a solution: its own, then that on a mesh which is symmetric, if its own nearly is. Between its stages
-/// the error of strains is larger than that of the solution.
+/// The first point of the branch through a solution: its own, then that on a mesh which is symmetric, if its own nearly is; or that on elements
+/// of another degree. Between its stages the error of strains is larger than that of the solution.
 ///
 /// # Errors
 /// If it is no equilibrium there, or a section is refused.
@@ -39,6 +39,10 @@ pub fn begin_with(
     let (problem, nodes) = (solution.problem(), solution.nodes().to_vec());
     let symmetric = symmetrised(nodes.clone(), problem);
     let mesh = Mesh::new(problem, nodes, solution.degree())?;
+    if mesh.gauss.degree != equations.degree() {
+        let other = on_mesh(&mesh, solution.iterate(), symmetric, equations.degree())?;
+        return within(equations, other, t, BETWEEN, limits);
+    }
     let moved = mesh.nodes.iter().zip(&symmetric).map(|(from, to)| (from - to).abs()).fold(0.0, f64::max);
     if mesh.nodes.len() == symmetric.len() && moved < ROUNDING * problem.length {
         return begin(equations, on_nodes(&mesh, solution.iterate(), symmetric)?, t, limits);
@@ -126,8 +130,13 @@ impl HeldState {
 
 /// The state on a mesh of these nodes.
 fn on_nodes(mesh: &Mesh, x: &Iterate, nodes: Vec<f64>) -> Result<HeldState, InvalidInput> {
-    let finer = Mesh::new(&mesh.problem, nodes, mesh.gauss.degree)?;
-    let moved = transferred(x, mesh, &finer)?;
+    on_mesh(mesh, x, nodes, mesh.gauss.degree)
+}
+
+/// The state on a mesh of these nodes and this degree.
+fn on_mesh(mesh: &Mesh, x: &Iterate, nodes: Vec<f64>, degree: usize) -> Result<HeldState, InvalidInput> {
+    let other = Mesh::new(&mesh.problem, nodes, degree)?;
+    let moved = transferred(x, mesh, &other)?;
     let length = mesh.problem.length;
-    Ok(HeldState { nodes: Arc::new(finer.nodes.iter().map(|s| s / length).collect()), x: moved })
+    Ok(HeldState { nodes: Arc::new(other.nodes.iter().map(|s| s / length).collect()), x: moved })
 }

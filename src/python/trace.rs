@@ -86,11 +86,6 @@ pub fn trace(
     let kinks = solution.kinks()?.into_iter().map(|s| s / length).collect();
     let family = Family::new(vec![problems.0.problem(), problems.1.problem()])?.with_kinks(kinks);
     let t = (start_value - span[0]) / (span[1] - span[0]);
-    // The stages are those of its own degree.
-    if solution.degree() != degree {
-        let expected = format!("a state of degree {degree}");
-        return Err(InvalidInput::new("start", solution.degree(), &expected).into());
-    }
     let limits = Limits { tolerance: (0.1 * tol).max(1e-14), ..limits(span, &values, max_steps) };
     let asked = Asked { span, values: &values };
     let (branches, special, work) = detached(py, || {

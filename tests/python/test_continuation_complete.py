@@ -146,7 +146,9 @@ def test_points_of_a_branch_that_fails_meet_the_tolerance() -> None:
     ribbon = rb.Ribbon(6.90947, 1.0, eta, material=rb.Isotropic(Y=3.0, nu=0.293114))
     end = rb.Clamped(position=(0, 0, 6.8078), rotation=(0.7406, 0.08422, 0.51668), twist_turns=-0.17311)
     scene = rb.Scene(ribbon, growth, end=end)
-    (branch,) = rb.trace(scene, "end.position[2]", (6.39326, 6.87692), depth=0).branches
+    # On elements of the default degree it does not fail.
+    (branch,) = rb.trace(scene, "end.position[2]", (6.39326, 6.87692), depth=0, degree=5).branches
+    assert branch.ended[1] == "failed"
     assert branch.parameter.size > 1
     assert all(branch.state(i).report.error <= 1e-10 for i in range(branch.parameter.size))
 
@@ -197,3 +199,15 @@ def test_rings_next_to_a_section_instability(amplitude: float) -> None:
     (state,) = diagram.states_at(amplitude)
     np.testing.assert_allclose(state.strains[:, 2], 2.0 * math.pi / 10.0, rtol=1e-9)
     assert state.stable
+
+
+@pytest.mark.parametrize(("own", "asked"), [(5, None), (5, 8), (7, 3), (4, 5)])
+def test_a_start_may_have_elements_of_another_degree(own: int, asked: int | None) -> None:
+    scene = rb.Scene(rb.Ribbon(10.0, 1.0, 0.1), law="linear", end=rb.Clamped(position=(0, 0, 9.0)))
+    start = rb.solve(scene, degree=own)
+    diagram = rb.trace(scene, "end.position[2]", (8.5, 9.0), start=start, depth=0, degree=asked)
+    (first,) = diagram.states_at(9.0)
+    assert first.report.degree == (asked or 7)
+    # Both are the same equilibrium, to the tolerance of either, 1e-10.
+    force = first.reactions.start.force
+    assert force == pytest.approx(start.reactions.start.force, abs=1e-8 * abs(force[2]))

@@ -464,7 +464,7 @@ pub fn adapted(
         // Once may be a mesh that was still too coarse; orders of two and more halve the error soon.
         let stalled = stalls >= 2 && error < LARGEST_ROUNDING;
         let settled = error <= settings.tolerance || stalled;
-        let hidden = if settled && settings.adaptive { parts_for_waves(&mesh, &x)? } else { None };
+        let hidden = if settled && settings.adaptive { parts_for_waves(&mesh, &x, true)? } else { None };
         let wanted = hidden.iter().flatten().fold(0_usize, |sum, parts| sum.saturating_add(*parts));
         let finer = wanted.max(count + 1);
         let status = if settled && hidden.is_none() {

@@ -35,11 +35,17 @@ const AIM: f64 = 0.75;
 /// Radians of a wave along all the ribbon for it to buckle, a little less than the quarter of one of a cantilever.
 const LEAST: f64 = 1.5;
 
-/// Into how many parts each element is to be divided for the ways in which it may buckle; `None` if none is.
+/// Compliance, over that of the ungrown section, above which waves crowd, and radians of one along all the ribbon, some ten ways to
+/// buckle, beyond which those that crowd need not be told apart.
+const CROWDING: f64 = 10.0;
+const CROWDED: f64 = 40.0;
+
+/// Into how many parts each element is to be divided for the ways in which it may buckle, or for the first ten where they crowd; `None` if
+/// none is.
 ///
 /// # Errors
 /// Where a section is refused.
-pub fn parts_for_waves(mesh: &Mesh, x: &Iterate) -> Result<Option<Vec<usize>>, InvalidInput> {
+pub fn parts_for_waves(mesh: &Mesh, x: &Iterate, all: bool) -> Result<Option<Vec<usize>>, InvalidInput> {
     let degree = mesh.gauss.degree;
     let most = (RADIANS + RADIANS_BY_DEGREE * (degree - 1) as f64).min(MOST_RADIANS);
     let mut parts = Vec::with_capacity(mesh.elements());
@@ -52,7 +58,14 @@ pub fn parts_for_waves(mesh: &Mesh, x: &Iterate) -> Result<Option<Vec<usize>>, I
             let at = &x.nodes[node];
             let frame = UnitQuaternion::new_unchecked(at.rotation);
             let own = |v: Vector3<f64>| frame.inverse_transform_vector(&v);
-            largest_wave_number(&compliance, strain[0], own(at.force), own(at.moment()))
+            let (force, moment) = (own(at.force), own(at.moment()));
+            let wave = largest_wave_number(&compliance, strain[0], force, moment);
+            let firm = compliance.inf(&(CROWDING * response.compliance));
+            if all || firm == compliance {
+                return wave;
+            }
+            let before = largest_wave_number(&firm, strain[0], force, moment);
+            wave.min(before.max(CROWDED / mesh.problem.length))
         };
         let wave = shortest(i).max(shortest(i + 1));
         let curvature = strain.rows(1, 3).norm();

@@ -405,6 +405,9 @@ impl Equations for Held {
         let system = self.system(x, t)?;
         let mut estimated = defects.estimate(&moved.x, &system.mesh.problem);
         estimated.error = error;
+        if error < LARGEST_ROUNDING && estimated.is_rounding(&x.x, &system.units) {
+            return Ok((error, None));
+        }
         Ok((error, Some(x.refined(&system.mesh, &estimated, MARGIN * tolerance)?)))
     }
 

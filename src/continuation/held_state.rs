@@ -82,12 +82,12 @@ impl HeldState {
         self.on_finer(mesh, refined(mesh, estimated, tolerance))
     }
 
-    /// The state on a mesh that shows all ways in which it may buckle; `None` if its own does.
+    /// The state on a mesh that shows all ways in which it may buckle, or the first ten where they crowd; `None` if its own does.
     ///
     /// # Errors
     /// Where that has too many elements, or a section is refused.
     pub fn showing_waves(&self, mesh: &Mesh) -> Result<Option<Self>, Failed> {
-        let Some(parts) = parts_for_waves(mesh, &self.x)? else { return Ok(None) };
+        let Some(parts) = parts_for_waves(mesh, &self.x, false)? else { return Ok(None) };
         let count = parts.iter().fold(0_usize, |sum, parts| sum.saturating_add(*parts));
         if count > MOST_ELEMENTS {
             return Err(Failed::Fine(count));

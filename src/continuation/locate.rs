@@ -140,7 +140,7 @@ fn hides<E: Equations>(equations: &mut E, [a, b]: [&PointOf<E>; 2], point: &Poin
 }
 
 /// How far beside a section instability the index is looked at, of the way to a point.
-const NEARBY: [f64; 2] = [0.3, 0.03];
+const NEARBY: [f64; 4] = [0.3, 0.03, 3e-3, 3e-4];
 /// A distance in which nothing is looked for.
 const NEAREST: f64 = 1e-6;
 /// An index that is large: after so many ways to buckle the others before the section instability are passed over.

@@ -29,6 +29,8 @@ pub const FROM_THE_SIDE: f64 = 1e-3;
 /// The step off the branch, and how often it is halved where Newton's method fails.
 const STEP: f64 = 0.05;
 const HALVINGS: usize = 6;
+/// How far a branch bends away within the step, of that, that is little.
+const LITTLE: f64 = 0.012;
 /// Directions that are tried where more than two branches may meet.
 const SPOKES: usize = 12;
 /// Relative difference of what mirror images have in common.
@@ -158,7 +160,8 @@ fn extend<E: Equations>(
 /// Square of what is left of a unit direction that is nothing.
 const NOTHING: f64 = 1e-12;
 
-/// The first point in a direction.
+/// The first point in a direction: where it bends little, if nearer ones bend less, for so near shapes are those of buckling and need no
+/// finer mesh.
 pub fn stepped<E: Equations>(
     equations: &mut E,
     at: &PointOf<E>,
@@ -166,6 +169,7 @@ pub fn stepped<E: Equations>(
     limits: &Limits,
 ) -> Option<PointOf<E>> {
     let mut step = STEP;
+    let mut found: Option<(PointOf<E>, f64)> = None;
     for _ in 0..HALVINGS {
         let x = equations.moved(&at.x, &direction.x, step);
         let guess =
@@ -176,11 +180,18 @@ pub fn stepped<E: Equations>(
             && done.first < 0.5 * step
             && (0.0..=1.0).contains(&done.point.t)
         {
+            let bend = done.first / step;
+            if found.as_ref().is_some_and(|(_, before)| bend > 0.5 * before) {
+                break;
+            }
             let mut point = done.point;
             point.s = step;
-            return Some(point);
+            found = Some((point, bend));
+            if bend < LITTLE {
+                break;
+            }
         }
         step *= 0.5;
     }
-    None
+    found.map(|(point, _)| point)
 }

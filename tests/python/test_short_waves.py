@@ -165,3 +165,28 @@ def test_thin_strip_pressed_by_moving_its_clamp(thickness):
     assert multiplicities == [1, 1, 1]
     index = diagram.branches[0].index
     assert set(index[diagram.branches[0].parameter > 10.0 * (1 - critical)]) == {0}
+
+
+# --- a strip whose edges grow, pressed a little: it buckles as its sections soften, just before these give way
+
+
+@pytest.mark.parametrize("force", [1e-6, 1e-5, 5e-5])
+def test_strip_that_softens_under_a_small_force(force):
+    # Euler's load of the ungrown strip is 3.3e-4.
+    def excess(xi, waves):
+        law = rb.SectionLaw(0.1, rb.growth.edge(xi))
+        eps = brentq(lambda eps: law.gradient([eps, 0, 0, 0])[0] + force, -0.1, 0.1, xtol=1e-16)
+        return law.hessian([eps, 0, 0, 0])[2, 2] * (waves / 10.0) ** 2 - force * (1 + eps)
+
+    second = 2 * brentq(lambda x: math.tan(x) - x, math.pi, 1.499 * math.pi)
+    expected = [
+        brentq(excess, 0.02, 0.0454673, args=(waves,), xtol=1e-16)
+        for waves in (2 * math.pi, second, 4 * math.pi)
+    ]
+    scene = rb.Scene(rb.Ribbon(10.0, 1.0, 0.1), rb.growth.edge(0.0), end=rb.Sliding(force=-force))
+    diagram = rb.trace(scene, "growth.edge.amplitude", (0.0, 0.08), depth=0)
+    found, multiplicities = branch_points(diagram)
+    # Points of a trace at its tolerance of 1e-10, in a span of twice these.
+    assert found[:3] == pytest.approx(expected, rel=1e-11)
+    assert multiplicities[:3] == [1, 1, 1]
+    assert diagram.branches[0].ended[1] == "span"

@@ -167,7 +167,7 @@ def test_thin_strip_pressed_by_moving_its_clamp(thickness):
     assert set(index[diagram.branches[0].parameter > 10.0 * (1 - critical)]) == {0}
 
 
-# --- a strip whose edges grow, pressed a little: it buckles as its sections soften, just before these give way
+# --- a strip whose edges grow, pressed a little: it buckles as its sections soften, before these give way
 
 
 @pytest.mark.parametrize("force", [1e-6, 1e-5, 5e-5])

@@ -25,7 +25,7 @@ from .record import record_of
 if TYPE_CHECKING:
     from .state import State
 
-__all__ = ["WRITERS", "check_path", "replacing", "save"]
+__all__ = ["WRITERS", "check_encoding", "check_path", "replacing", "save"]
 
 NX = 41
 """Points across the width in every file."""
@@ -74,9 +74,18 @@ def check_path(path: object, suffixes: Collection[str]) -> str:
     suffix = Path(path).suffix.lower()
     if suffix not in suffixes:
         raise InputError("path", str(path), expected)
+    check_encoding("path", path)
     if not os.path.isdir(Path(path).parent):
         raise InputError("path", str(path), "a file in a directory that exists")
     return suffix
+
+
+def check_encoding(field: str, path: str | PathLike[str]) -> None:
+    """Refuse a name that the file system of this locale has no bytes for."""
+    try:
+        os.fsencode(path)
+    except UnicodeEncodeError as error:
+        raise InputError(field, str(path), f"a file name in the encoding {error.encoding}") from None
 
 
 @contextmanager

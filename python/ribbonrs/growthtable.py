@@ -5,6 +5,7 @@ pydantic checks which keys there are, here as in `ribbonrs.scenefile`.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -136,12 +137,22 @@ class GrowthTable(Table):
             terms.append(growths.thickness(**self.thickness.given()))
         if self.chiral is not None:
             terms.append(growths.chiral(given["chiral"]))
-        terms.extend(growths.Profile(**profile.given()) for profile in self.profile)
+        terms.extend(self._profiles())
         if self.csv is not None:
             terms.append(self.csv.make(directory))
         if not terms:
             raise InputError("growth", {}, f"at least one of {', '.join(type(self).model_fields)}")
         return sum(terms[1:], start=terms[0])
+
+    def _profiles(self) -> Iterator[Growth]:
+        for i, profile in enumerate(self.profile):
+            try:
+                yield growths.Profile(**profile.given())
+            except InputError as error:
+                # Of several it is told which.
+                several = "growth.profile" if len(self.profile) == 1 else f"growth.profile[{i}]"
+                field = error.field.replace("growth.profile", several, 1)
+                raise InputError(field, error.value, error.expected) from None
 
     def reads(self, directory: Path) -> tuple[Path, ...]:
         """Return the files that are read."""

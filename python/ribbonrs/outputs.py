@@ -11,6 +11,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from .errors import InputError
+from .files import check_encoding
 from .growthtable import Table
 
 __all__ = ["SUFFIXES", "SWEPT", "TRACED", "Output", "OutputTable", "write_all"]
@@ -105,6 +106,7 @@ def _path(field: str, name: object, suffixes: tuple[str, ...]) -> Path:
     path = Path(name)
     if path.suffix.lower() not in suffixes:
         raise InputError(field, name, f"a file name ending in {' or '.join(suffixes)}")
+    check_encoding(field, name)
     # os.path, since Path.is_dir fails on a name that is too long.
     if not os.path.isdir(path.parent):
         raise InputError(field, name, "a file in a directory that exists")

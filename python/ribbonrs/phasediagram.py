@@ -472,7 +472,7 @@ def _shape(n: object, default: int, most: int) -> tuple[int, int]:
     pair = tuple(n) if isinstance(n, list | tuple) else (n, n)
     if len(pair) != 2:
         raise InputError("sweep.n", n, "a number of values, or two")
-    nx, ny = (count("sweep.n", entry, 2) for entry in pair)
+    nx, ny = (count("sweep.n", entry, 2, most // 2) for entry in pair)
     if nx * ny > most:
         raise InputError("sweep.n", n, f"at most {most} points in all")
     return nx, ny

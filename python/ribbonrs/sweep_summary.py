@@ -56,7 +56,11 @@ def _boundaries(diagram: PhaseDiagram) -> Iterator[RenderableType]:
 def _missing(diagram: PhaseDiagram) -> Iterator[RenderableType]:
     unresolved = int(np.count_nonzero(diagram.done & ~diagram.resolved))
     if unresolved:
-        yield Text(f"{unresolved} points with states that are not told apart")
+        yield Text(f"{_points(unresolved)} with states that are not told apart")
     for reason in dict.fromkeys(diagram.reasons.values()):
         count = sum(other == reason for other in diagram.reasons.values())
-        yield Text(f"{count} points without a state: {reason}")
+        yield Text(f"{_points(count)} without a state: {reason}")
+
+
+def _points(count: int) -> str:
+    return f"{count} point" if count == 1 else f"{count} points"

@@ -209,6 +209,16 @@ def test_any_terminal_can_show_any_file_name(scene):
     assert files() == ["flöte.npz"]
 
 
+def test_a_name_that_the_locale_cannot_encode_is_one_line(scene):
+    environment = {**os.environ, "LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"}
+    done = run_process("run", scene(SCENE + '[output]\ndata = "fl\\u00f6te.npz"'), env=environment)
+    assert (done.returncode, done.stderr) == (
+        2,
+        "ribbonrs: output.data = 'fl\\xf6te.npz': expected a file name in the encoding ascii\n",
+    )
+    assert files() == []
+
+
 def test_no_number_is_cropped(scene, capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "40")
     thin = SCENE.replace("thickness = 0.2", "thickness = 2e-5")

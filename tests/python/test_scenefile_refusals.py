@@ -47,6 +47,14 @@ def refusal(job):
             "d22, d23, g21, g31, gamma22, gamma23; the nearest is gamma33",
         ),
         (
+            SCENE + '[[growth.profile]]\nname = "a"\ngamma33 = [0.1]\n[[growth.profile]]\ngamma33 = ["b"]',
+            "growth.profile[1].gamma33[0] = 'b': expected a finite number",
+        ),
+        (
+            SCENE + '[[growth.profile]]\ngamma33 = ["b"]',
+            "growth.profile.gamma33[0] = 'b': expected a finite number",
+        ),
+        (
             SCENE + '[output]\n"sur\\nface" = 1',
             "output.'sur\\nface' = 1: expected one of figure, surface, data, diagram, table, branches, map, "
             "phases; the nearest is surface",

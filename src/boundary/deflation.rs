@@ -12,9 +12,11 @@ use super::fallen::{BOWS, DISTURBANCES, disturbed};
 use super::iterate::Iterate;
 use super::known::Known;
 use super::mesh::Mesh;
+use super::meshes::adapted;
 use super::path::Path;
 use super::problem::Problem;
-use super::solve::{Settings, Solved, Spent, adapted, goal, solve, work};
+use super::solve::{Settings, Solved, goal, solve};
+use super::spent::{Spent, work};
 use super::system::{System, Targets};
 use crate::InvalidInput;
 

@@ -17,12 +17,12 @@
 //! | `correct`, `panel` | corrections, also with a parameter unknown |
 //! | `newton`, `known`, `path`, `arclength` | the nonlinear equations, from a known shape |
 //! | `creep`, `kinks` | the same where no equilibria lead on: viscous, to a stable one, with sections in several phases |
-//! | `step`, `adapt`, `waves` | dense output, errors and meshes |
+//! | `step`, `adapt`, `waves`, `meshes` | dense output, errors and meshes |
 //! | `check` | an independent residual |
 //! | `stress` | wrenches that nothing tells, of what is rigid |
 //! | `stability`, `fallen` | the index under the end conditions, and what unstable states fall into |
 //! | `deflation` | several equilibria |
-//! | `solve`, `report`, `solution` | the whole, and what it gives |
+//! | `solve`, `spent`, `report`, `solution` | the whole, and what it gives |
 
 mod adapt;
 mod arclength;
@@ -46,6 +46,7 @@ mod known;
 mod lanes;
 mod law;
 mod mesh;
+mod meshes;
 mod newton;
 mod panel;
 mod path;
@@ -55,6 +56,7 @@ mod sections;
 mod solution;
 mod solve;
 mod sparse;
+mod spent;
 mod stability;
 mod step;
 mod stress;

@@ -17,7 +17,7 @@ use super::known::{Known, slerp};
 use super::mesh::Mesh;
 use super::newton::{Control, Failed, newton};
 use super::problem::{Problem, turned};
-use super::solve::work;
+use super::spent::work;
 use super::system::{Failure, System, Targets};
 use crate::InvalidInput;
 use crate::section::Strain;

@@ -65,13 +65,18 @@ impl Defects {
     }
 }
 
-/// The defects of `x` as a solution for these targets.
+/// The defects of `x` as a solution for these targets, for an error that is compared with a tolerance.
 ///
 /// # Errors
 /// Where a section is refused.
-pub fn defects(system: &System, x: &Iterate, targets: &Targets) -> Result<Defects, InvalidInput> {
+pub fn defects(
+    system: &System,
+    x: &Iterate,
+    targets: &Targets,
+    tolerance: f64,
+) -> Result<Defects, InvalidInput> {
     let mesh = &system.mesh;
-    let mut stepper = Stepper::new(&mesh.problem, mesh.gauss)?;
+    let mut stepper = Stepper::new(&mesh.problem, mesh.gauss)?.to(NEGLIGIBLE * tolerance);
     let degree = mesh.gauss.degree;
     let factor = 1.0 / (1.0 - 0.25_f64.powi(mesh.gauss.degree as i32));
     let mut gaps = Vec::with_capacity(mesh.elements());
@@ -107,12 +112,20 @@ pub fn defects(system: &System, x: &Iterate, targets: &Targets) -> Result<Defect
     Ok(Defects { gaps, sizes, rates })
 }
 
-/// Estimates the error of `x`, at which `system` was linearised, as a solution for these targets.
+/// Part of a tolerance that no defect is to be wrong by: what the equations make of it may be a thousand times as much.
+const NEGLIGIBLE: f64 = 1e-5;
+
+/// Estimates the error of `x`, at which `system` was linearised, as a solution for these targets, to be compared with a tolerance.
 ///
 /// # Errors
 /// Where a section is refused.
-pub fn estimate(system: &mut System, x: &Iterate, targets: &Targets) -> Result<Estimate, InvalidInput> {
-    let defects = defects(system, x, targets)?;
+pub fn estimate(
+    system: &mut System,
+    x: &Iterate,
+    targets: &Targets,
+    tolerance: f64,
+) -> Result<Estimate, InvalidInput> {
+    let defects = defects(system, x, targets, tolerance)?;
     let correction = system.correction_for(defects.gaps.clone());
     Ok(defects.estimate(&correction, &system.mesh.problem))
 }

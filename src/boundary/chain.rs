@@ -327,6 +327,7 @@ impl Chain {
         states[n * (count - 1)..].copy_from_slice(&last[..n]);
         constants[m * (count - 1)..].copy_from_slice(&last[n..n + m]);
         let mut jumps = self.jumps.iter().rev().peekable();
+        let mut known = vec![0.0; n + m];
         for i in (0..count - 1).rev() {
             let (head, next) = states.split_at_mut((i + 1) * n);
             let next = &next[..n];
@@ -339,7 +340,8 @@ impl Chain {
                 }
             }
             let panel = &self.panels[i * self.panel_size()..(i + 1) * self.panel_size()];
-            let known = [next, p].concat();
+            known[..n].copy_from_slice(next);
+            known[n..].copy_from_slice(p);
             let x = &mut head[i * n..];
             for (row, value) in x.iter_mut().enumerate() {
                 let first = row * stride + n;

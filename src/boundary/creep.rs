@@ -262,7 +262,7 @@ fn refused(system: &System, from: &Iterate, ended: &Ended, targets: &Targets) ->
 /// The error of the mesh, but for elements within which strains jump: none resolves them.
 fn resolvable(system: &System, x: &Iterate, targets: &Targets) -> Result<Estimate, InvalidInput> {
     let mesh = &system.mesh;
-    let mut defects = defects(system, x, targets)?;
+    let mut defects = defects(system, x, targets, 0.0)?;
     for s in Phases::of(mesh, x)?.kinks {
         let next = mesh.nodes.partition_point(|&node| node < s);
         if mesh.nodes[next] != s {

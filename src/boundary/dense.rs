@@ -4,8 +4,6 @@ use pulp::{Arch, NullaryFnOnce};
 
 /// Numbers that are worked on at once: rows are as long as a multiple of it.
 const WIDE: usize = 4;
-/// The longest row: the strains of an element of the highest degree, and its inputs.
-const LONGEST: usize = 44;
 
 /// Does work by the widest instructions of this processor. They give the same bits: nothing is fused or summed in another order.
 pub fn wide<W: NullaryFnOnce>(work: W) -> W::Output {
@@ -152,12 +150,12 @@ impl NullaryFnOnce for Forward<'_> {
 
     #[inline(always)]
     fn call(self) {
-        // What is not known yet is zero, so that all rows are as long.
-        let (mut known, length) = ([0.0; LONGEST], padded(self.pivots));
-        for (row, (x, factors)) in self.rhs.iter_mut().zip(self.block.chunks_exact(self.stride)).enumerate() {
-            *x -= dot(&factors[..length], &known[..length]);
-            if row < self.pivots {
-                known[row] = *x;
+        // By columns: no sum waits for the last one.
+        for k in 0..self.pivots {
+            let (known, rest) = self.rhs.split_at_mut(k + 1);
+            let rows = self.block[(k + 1) * self.stride..].chunks_exact(self.stride);
+            for (y, row) in rest.iter_mut().zip(rows) {
+                *y -= row[k] * known[k];
             }
         }
     }
@@ -179,11 +177,12 @@ impl NullaryFnOnce for Backward<'_> {
 
     #[inline(always)]
     fn call(self) {
-        let (mut known, length) = ([0.0; LONGEST], padded(self.rhs.len()));
-        for (row, x) in self.rhs.iter_mut().enumerate().rev() {
-            let factors = &self.block[row * self.stride..][..length];
-            *x = (*x - dot(factors, &known[..length])) / factors[row];
-            known[row] = *x;
+        for k in (0..self.rhs.len()).rev() {
+            let (rest, known) = self.rhs.split_at_mut(k);
+            known[0] /= self.block[k * self.stride + k];
+            for (y, row) in rest.iter_mut().zip(self.block.chunks_exact(self.stride)) {
+                *y -= row[k] * known[0];
+            }
         }
     }
 }

@@ -63,7 +63,7 @@ pub fn adapted(
             return Ok(Solved { nodes: mesh.nodes, x, report, index: None });
         }
         x = SelfStress::new(&ended.x.nodes, &system.self_stresses(), system.units).relieved(ended.x);
-        let estimated = estimate(&mut system, &x, &goal)?;
+        let estimated = estimate(&mut system, &x, &goal, 0.0)?;
         let error = estimated.error;
         let condition = system.condition();
         mesh = system.mesh;

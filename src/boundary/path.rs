@@ -234,7 +234,7 @@ impl Path {
                 reached.fraction = t;
                 reached.norms = ended.norms;
                 if stride.careful {
-                    let estimate = estimate(system, &reached.x, &targets)?;
+                    let estimate = estimate(system, &reached.x, &targets, 0.0)?;
                     if estimate.error > LARGEST_ERROR {
                         stride.again = true;
                         return Ok(Stop::Coarse(estimate));

@@ -248,7 +248,7 @@ impl Solution {
         let goal = goal(&problem);
         let regular = system.linearise(&x, &goal).is_ok();
         // Where the equations are singular the error is not known.
-        let error = if regular { estimate(&mut system, &x, &goal)?.error } else { f64::INFINITY };
+        let error = if regular { estimate(&mut system, &x, &goal, 0.0)?.error } else { f64::INFINITY };
         let report = Report {
             status: Status::Converged,
             reason: String::new(),

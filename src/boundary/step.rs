@@ -28,6 +28,8 @@ pub struct Stepper {
     /// Offset of the law at the stages of the next steps, by fractions of an element; none if empty.
     offset: Vec<Strain>,
     drag: f64,
+    /// Error of strains that are solved for, over the length of the ribbon, that may be left.
+    accuracy: f64,
 }
 
 /// Newton iterations of the stages, and changes, relative to the strains or to the last, below which factors are kept.
@@ -49,7 +51,14 @@ impl Stepper {
             uniform,
             offset: Vec::new(),
             drag: 0.0,
+            accuracy: 0.0,
         })
+    }
+
+    /// The same that leaves an error of strains, over the length of the ribbon, if that is not less than rounding.
+    #[must_use]
+    pub fn to(self, accuracy: f64) -> Self {
+        Self { accuracy: accuracy / self.problem.length, ..self }
     }
 
     /// Violates the law by these strains at the stages of the next step, with a viscosity.
@@ -119,7 +128,7 @@ impl Stepper {
                 // With new factors the next change would be of the square of this one, with known ones as much less as this one is.
                 let rate = if factors { size / before } else { size / scale };
                 let left = if factors { rate * size } else { 1e-7 * size };
-                if left <= 1e-16 * scale || size < 1e-15 * scale.max(1.0) {
+                if left <= self.accuracy.max(1e-16 * scale) || size < 1e-15 * scale.max(1.0) {
                     solved = true;
                     break;
                 }

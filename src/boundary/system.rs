@@ -60,6 +60,8 @@ pub struct System {
     pub factorisations: usize,
     /// How often of those by one sparse matrix.
     pub sparse_factorisations: usize,
+    /// Room for the blocks of the continuity of an element.
+    continuity: [Vec<f64>; 3],
     /// How long that took.
     pub factorising: Duration,
     /// Of the stages where the equations were linearised.
@@ -160,6 +162,7 @@ impl System {
             holds_gliding: true,
             factorisations: 0,
             sparse_factorisations: 0,
+            continuity: Default::default(),
             factorising: Duration::ZERO,
             sections: Sections::default(),
         })
@@ -406,7 +409,11 @@ impl System {
         self.transfers.push(rows);
         let (states, constants) = (self.layout.states(), self.layout.constants());
         let n = states.len();
-        let (mut a, mut b, mut j) = (Vec::with_capacity(n * n), Vec::new(), vec![0.0; n * n]);
+        let [mut a, mut b, mut j] = std::mem::take(&mut self.continuity);
+        a.clear();
+        b.clear();
+        j.clear();
+        j.resize(n * n, 0.0);
         for (row, &state) in states.iter().enumerate() {
             let entry = |column: usize| match state {
                 0..6 => rows[(state, column)],
@@ -435,6 +442,7 @@ impl System {
                 self.factorising += begun.elapsed();
             }
         }
+        self.continuity = [a, b, j];
         if point.is_some() && self.layout == Layout::Constant {
             let mut k = vec![0.0; 6 * n];
             for (row, column) in (0..3).flat_map(|row| (0..3).map(move |column| (row, column))) {

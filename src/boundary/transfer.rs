@@ -51,7 +51,8 @@ impl Anchor {
         let (force, about_origin) = (units.force * vector(6), units.moment * vector(9));
         let moment = about_origin - shift.cross(&self.force) - self.position.cross(&force);
         let (force, moment) = (force - turn.cross(&self.force), moment - turn.cross(&self.moment));
-        [force, moment, turn].map(|v| [v.x, v.y, v.z]).concat().try_into().unwrap_or([f64::NAN; 9])
+        let parts = [force, moment, turn];
+        std::array::from_fn(|i| parts[i / 3][i % 3])
     }
 }
 

@@ -372,7 +372,7 @@ impl Equations for Held {
             self.linearise(x, t, Some(along))?;
         }
         self.system(x, t)?;
-        let Some(defects) = self.defects(x)? else { return Ok(None) };
+        let Some(defects) = self.defects(x, MARGIN * self.tolerance.min(most))? else { return Ok(None) };
         // At right angles to the branch: along it nothing is held.
         let line = self.line();
         let some = self.error_for(defects.gaps.clone());
@@ -396,7 +396,7 @@ impl Equations for Held {
         tolerance: f64,
     ) -> Result<(f64, Option<HeldState>), Failed> {
         self.linearise(x, t, Some(across))?;
-        let Some(defects) = self.defects(x)? else { return Ok((0.0, None)) };
+        let Some(defects) = self.defects(x, MARGIN * tolerance)? else { return Ok((0.0, None)) };
         let moved = self.error_for(defects.gaps.clone());
         let error = moved.t.abs();
         if error <= tolerance {
@@ -467,9 +467,9 @@ const TURN: f64 = 1e-6;
 
 impl Held {
     /// What the elements of the mesh miss.
-    fn defects(&self, x: &HeldState) -> Result<Option<Defects>, Failed> {
+    fn defects(&self, x: &HeldState, tolerance: f64) -> Result<Option<Defects>, Failed> {
         let Some(system) = &self.system else { return Ok(None) };
-        Ok(Some(defects(system, &x.x, &goal(&system.mesh.problem))?))
+        Ok(Some(defects(system, &x.x, &goal(&system.mesh.problem), tolerance)?))
     }
 
     /// Whether the equations were linearised so near to a point that an error is told as well by those factors.

@@ -164,7 +164,7 @@ def test_thin_strip_pressed_by_moving_its_clamp(thickness):
     assert shortening == pytest.approx([4.0, second, 1.0], rel=2e-6)
     assert multiplicities == [1, 1, 1]
     index = diagram.branches[0].index
-    assert set(index[diagram.branches[0].parameter > 10.0 * (1 - critical)]) == {0}
+    assert set(index[diagram.branches[0].parameter > 10.0 * (1 - 0.99 * critical)]) == {0}
 
 
 # --- a strip whose edges grow, pressed a little: it buckles as its sections soften, before these give way

@@ -254,6 +254,8 @@ class _SceneTable(Table):
         for end in ("start", "end"):
             if end in given:
                 arguments[end] = _named(end, given[end])
+        if isinstance(arguments.get("start"), Closed) and "end" in given:
+            raise InputError("end.kind", given["end"].kind, "no table [end]: a closed ribbon has no ends")
         if "gravity" in given:
             arguments["gravity"] = self.gravity
         if self.weight is not None:

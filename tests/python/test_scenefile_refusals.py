@@ -47,6 +47,10 @@ def refusal(job):
             "d22, d23, g21, g31, gamma22, gamma23; the nearest is gamma33",
         ),
         (
+            SCENE + '[start]\nkind = "closed"\n[end]\nkind = "free"',
+            "end.kind = 'free': expected no table [end]: a closed ribbon has no ends",
+        ),
+        (
             SCENE + '[[growth.profile]]\nname = "a"\ngamma33 = [0.1]\n[[growth.profile]]\ngamma33 = ["b"]',
             "growth.profile[1].gamma33[0] = 'b': expected a finite number",
         ),

@@ -204,7 +204,7 @@ def refusal(job):
         ),
         (
             SCENE + '[start]\nkind = "closed"\n[end]\nkind = "clamped"',
-            "end = Clamped(position=None, rotation=None, twist_turns=0.0): expected nothing: a closed ribbon",
+            "end.kind = 'clamped': expected no table [end]: a closed ribbon has no ends",
         ),
         (
             SCENE + '[end]\nkind = "pinned"\nposition = [0, 0, 12]',

@@ -19,7 +19,7 @@ use super::problem::Problem;
 use super::report::{Report, Status};
 use super::sections::sections_at;
 use super::solve::{Settings, Solved, goal, solve};
-use super::step::{Stepper, pointwise};
+use super::step::{Stepper, solved_pointwise};
 use super::system::System;
 use crate::InvalidInput;
 use crate::section::Strain;
@@ -424,10 +424,19 @@ impl Solution {
         strains.iter().zip(Gauss::of(self.degree).basis(x)).map(|(e, l)| e * l).sum()
     }
 
-    /// The section at `s`, a part `x` of the way through an element, with the strains that its resultants ask for.
+    /// The section at `s`, a part `x` of the way through an element, with the strains that its resultants ask for: near the polynomial, or, where
+    /// it leads from one phase to another, those of the nearest stage whose phase there is.
     fn section(&self, s: f64, at: At, i: usize, x: f64) -> Result<SectionState, InvalidInput> {
         let response = self.problem.law.at(s)?;
-        let strain = pointwise(&response, &SectionState::resultants(&at), self.strain(i, x));
+        let (resultants, guess) = (SectionState::resultants(&at), self.strain(i, x));
+        let strain = solved_pointwise(&response, &resultants, guess).unwrap_or_else(|| {
+            let gauss = Gauss::of(self.degree);
+            let mut stages: Vec<usize> = (0..self.degree).collect();
+            stages.sort_by(|&j, &k| (gauss.nodes[j] - x).abs().total_cmp(&(gauss.nodes[k] - x).abs()));
+            let from =
+                |j: usize| solved_pointwise(&response, &resultants, self.x.strains[i * self.degree + j]);
+            stages.into_iter().find_map(from).unwrap_or(guess)
+        });
         Ok(SectionState { strain, at })
     }
 

@@ -159,22 +159,28 @@ pub fn left(at: &At, exit: &Exit) -> At {
 /// The strains at which the law gives the resultants, from a guess; the guess itself where that fails.
 #[must_use]
 pub fn pointwise(response: &Response, resultants: &Strain, guess: Strain) -> Strain {
+    solved_pointwise(response, resultants, guess).unwrap_or(guess)
+}
+
+/// The same where it does not fail.
+#[must_use]
+pub fn solved_pointwise(response: &Response, resultants: &Strain, guess: Strain) -> Option<Strain> {
     let mut strain = guess;
     let mut before = f64::INFINITY;
     for _ in 0..20 {
         let (value, tangent) = response.value(&strain);
         let residual = value - response.compliance.component_mul(resultants);
-        let Some(change) = tangent.lu().solve(&residual) else { return guess };
+        let change = tangent.lu().solve(&residual)?;
         let size = change.amax();
         if !(size < before) {
             // Rounding, unless it never came close.
-            return if before < 1e-8 { strain } else { guess };
+            return (before < 1e-8).then_some(strain);
         }
         strain -= change;
         if size <= 1e-15 * strain.amax() {
-            return strain;
+            return Some(strain);
         }
         before = size;
     }
-    strain
+    Some(strain)
 }

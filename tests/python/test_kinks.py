@@ -1,13 +1,19 @@
 """Held ribbons whose sections are in different phases: the way there, and the kinks between."""
 
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
 import ribbonrs as rb
+from ribbonrs.boundary import state_of
+from ribbonrs.problem import problem_of
+from ribbonrs.scenefile import read
 from stress.equations import misses
 from stress.scenes import random_scene
 from stress.trial import ALLOWED
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
 
 pytestmark = pytest.mark.filterwarnings("ignore:growth.size")
 
@@ -89,3 +95,20 @@ def test_a_guess_that_is_far_creeps_on():
 def test_a_smooth_state_has_no_kinks():
     state = rb.solve(rb.Scene(STRIP, rb.growth.edge(0.02), end=rb.Clamped((1.0, 0.5, 18.0))))
     assert state.report.events == ()
+
+
+@pytest.mark.parametrize("stages", [1, 2, 3, 4])
+def test_sections_of_an_element_with_a_kink_inside_are_of_one_phase_or_the_other(stages):
+    scene = read(EXAMPLES / "kinked_strip.toml").scene
+    degree, nodes, states, strains, *rest = rb.solve(scene).course.solution.parts()
+    strains = np.reshape(strains, (-1, degree, 4))
+    # As many stages of the element after the kink as if it were between them: between, their polynomial is of no phase.
+    after = int(np.argmax(np.abs(np.diff(strains[:, 0, 2])))) + 1
+    strains[after, :stages] = strains[after - 1, -1]
+    parts = (degree, nodes, states, [tuple(stage) for stage in strains.reshape(-1, 4).tolist()], *rest)
+    state = state_of(scene, problem_of(scene).restored(parts), 1e-10, 101)
+    S = np.linspace(nodes[after], nodes[after + 1], 1002)[1:-1]
+    sections = state.at(S)
+    resultants = np.column_stack([sections.force[:, 2], sections.moment])
+    # Of 1e-3, solved for to rounding; a section of no phase misses 1e-5.
+    assert np.abs(scene.section_law.gradient(sections.strains, S) - resultants).max() < 1e-15

@@ -276,7 +276,7 @@ pub fn followed(
 
 /// Factorised elements of an attempt, and of all, that are too many: some four and seven seconds.
 const MOST_WORK: usize = 250_000;
-const MOST_WORK_OF_ALL: usize = 370_000;
+const MOST_WORK_OF_ALL: usize = 420_000;
 /// What a way on one mesh may take anyway.
 const LEAST_WORK: usize = 20_000;
 /// Error that a mesh on a careful way is made for.

@@ -73,7 +73,8 @@ impl Eliminated {
         }
     }
 
-    /// Puts the residual of the law at the stages, which is eliminated with the inputs, as the first column that pads them.
+    /// Puts the residual of the law at the stages, which is eliminated with the inputs, as the first column that pads them: six are padded to
+    /// eight, nine to twelve.
     pub(super) fn put_residual(&mut self, residual: &[Strain]) {
         let (strains, width) = (4 * self.stages, self.width());
         for (row, value) in by_component(&residual[..self.stages], 1.0).enumerate() {

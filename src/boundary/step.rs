@@ -162,7 +162,8 @@ pub fn pointwise(response: &Response, resultants: &Strain, guess: Strain) -> Str
     solved_pointwise(response, resultants, guess).unwrap_or(guess)
 }
 
-/// The same where it does not fail.
+/// The same; `None` where Newton's method comes no closer. Where it is slow, as next to where the section gives way, what it comes to is nearer
+/// than the guess.
 #[must_use]
 pub fn solved_pointwise(response: &Response, resultants: &Strain, guess: Strain) -> Option<Strain> {
     let mut strain = guess;

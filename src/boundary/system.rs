@@ -60,10 +60,10 @@ pub struct System {
     pub factorisations: usize,
     /// How often of those by one sparse matrix.
     pub sparse_factorisations: usize,
-    /// Room for the blocks of the continuity of an element.
-    continuity: [Vec<f64>; 3],
     /// How long that took.
     pub factorising: Duration,
+    /// Room for the blocks of the continuity of an element.
+    continuity: [Vec<f64>; 3],
     /// Of the stages where the equations were linearised.
     pub sections: Sections,
 }
@@ -162,8 +162,8 @@ impl System {
             holds_gliding: true,
             factorisations: 0,
             sparse_factorisations: 0,
-            continuity: Default::default(),
             factorising: Duration::ZERO,
+            continuity: Default::default(),
             sections: Sections::default(),
         })
     }

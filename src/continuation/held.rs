@@ -3,8 +3,6 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use nalgebra::Vector3;
-
 use super::equations::{Direction, Equations, Failed, Stability, dot, plus};
 use super::held_state::HeldState;
 use super::locus::Plane;
@@ -435,35 +433,10 @@ impl Equations for Held {
 
     fn section_direction(&mut self, x: &HeldState, t: f64) -> Option<Direction<Correction>> {
         let problem = self.problem(t).ok()?;
-        let mesh = x.mesh(&problem, self.degree).ok()?;
-        // Only where the strains are free to be the same all along.
-        if problem.law.varies()
-            || !x.x.nodes.iter().all(|at| at.force.norm() < 1e-9 && at.moment().norm() < 1e-9)
-        {
-            return None;
-        }
-        let strain = x.x.strains[0];
-        let soft = problem.law.at(0.0).ok()?.neutral(&strain)?;
-        let size = soft.rows(1, 3).norm() * problem.length;
-        let soft = soft / size;
-        let turned = x.turned(&mesh, &(soft * TURN))?;
-        let units = self.system.as_ref()?.units;
-        let nodes = turned.iter().zip(&x.x.nodes).map(|(to, from)| {
-            let shift: Vector3<f64> = (to.position - from.position) / (units.length * TURN);
-            let turn = (to.rotation * from.rotation.conjugate()).imag() * (2.0 / TURN);
-            let mut change = [0.0; 12];
-            change[..3].copy_from_slice(shift.as_slice());
-            change[3..6].copy_from_slice(turn.as_slice());
-            change
-        });
-        let nodes = nodes.collect();
-        let strains = vec![soft; x.x.strains.len()];
-        Some(Direction { x: Correction { nodes, strains, slack: Default::default() }, t: 0.0 })
+        let x = x.giving_way(&problem, self.degree, &self.system.as_ref()?.units)?;
+        Some(Direction { x, t: 0.0 })
     }
 }
-
-/// Radians by which a ribbon is bent or twisted to see where that leads.
-const TURN: f64 = 1e-6;
 
 impl Held {
     /// What the elements of the mesh miss.

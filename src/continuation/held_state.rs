@@ -8,8 +8,8 @@ use super::equations::Failed;
 use super::held::Held;
 use crate::InvalidInput;
 use crate::boundary::{
-    At, Estimate, Iterate, Mesh, Problem, Solution, Stepper, divided, parts_for_waves, refined, symmetrised,
-    transferred,
+    At, Correction, Estimate, Iterate, Mesh, Problem, Solution, Stepper, Units, divided, parts_for_waves,
+    refined, symmetrised, transferred,
 };
 use crate::section::Strain;
 
@@ -125,6 +125,38 @@ impl HeldState {
             nodes.push(at);
         }
         Some(nodes)
+    }
+}
+
+/// Radians by which a ribbon is bent or twisted to see where that leads.
+const TURN: f64 = 1e-6;
+/// Force and moment, in units, that are none.
+const NOTHING: f64 = 1e-6;
+
+impl HeldState {
+    /// The change in which sections that are about to become unstable give way, the same all along, if the ribbon is free to: uniform, and
+    /// without forces.
+    #[must_use]
+    pub fn giving_way(&self, problem: &Arc<Problem>, degree: usize, units: &Units) -> Option<Correction> {
+        let mesh = self.mesh(problem, degree).ok()?;
+        let bears =
+            |at: &At| at.force.norm() > NOTHING * units.force || at.moment().norm() > NOTHING * units.moment;
+        if problem.law.varies() || self.x.nodes.iter().any(bears) {
+            return None;
+        }
+        let soft = problem.law.at(0.0).ok()?.neutral(&self.x.strains[0])?;
+        let soft = soft / (soft.rows(1, 3).norm() * problem.length);
+        let turned = self.turned(&mesh, &(soft * TURN))?;
+        let nodes = turned.iter().zip(&self.x.nodes).map(|(to, from)| {
+            let shift = (to.position - from.position) / (units.length * TURN);
+            let turn = (to.rotation * from.rotation.conjugate()).imag() * (2.0 / TURN);
+            let mut change = [0.0; 12];
+            change[..3].copy_from_slice(shift.as_slice());
+            change[3..6].copy_from_slice(turn.as_slice());
+            change
+        });
+        let (nodes, strains) = (nodes.collect(), vec![soft; self.x.strains.len()]);
+        Some(Correction { nodes, strains, slack: Default::default() })
     }
 }
 
